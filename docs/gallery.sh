@@ -11,7 +11,7 @@ moments='parabola:4.4 damped_spring:0.4 tumbling_box:7.04 wing_nut:3.5 explicit_
     pendulum_wave:5 atwood:1.2 conker:0.8 bounce:2.6 carts:2.2 newtons_cradle:0.8 billiard_break:0.35
     pi_by_collisions:3.2 incline:0.9 race:1.4 tippe_top:2.2 coin:2 double_pendulum:4 gyroscope:2
     plank:2 galton:17 domino_spiral:12 wrecking_ball:1.7 marble_run:3 hourglass:2 oranges:2.4 coins:2.2 bumpy_road:3
-    chain_bridge:3 conveyor:5 rotating_drum:4 house_of_cards:1 fountain:3 sparks:2 leonids:4 rain:2 two_galaxies:6 damped_oscillator:5.2 phase_portrait:8 forces_on_a_slope:0.3 field_lines:2.6 equal_areas:5.2'
+    chain_bridge:3 conveyor:5 rotating_drum:4 house_of_cards:1 fountain:3 sparks:2 leonids:4 rain:2 two_galaxies:6 damped_oscillator:5.2 phase_portrait:8 forces_on_a_slope:0.3 field_lines:2.6 equal_areas:5.2 resonance:20.1 copper_cluster:4'
 
 folder=$(mktemp -d)
 trap 'rm -r "$folder"' EXIT

@@ -71,6 +71,20 @@ pub fn runs(text: &str) -> impl Iterator<Item = Run<'_>> {
     })
 }
 
+/// Returns a set text for people who read it as plain text, such as `x_0` or `m^-1`.
+pub fn plain(text: &str) -> String {
+    let mut plain = String::new();
+    for run in runs(text) {
+        match run.level {
+            Level::Line => {}
+            Level::Lower => plain.push('_'),
+            Level::Upper => plain.push('^'),
+        }
+        plain.push_str(run.letters);
+    }
+    plain
+}
+
 /// Returns the width of a set text, relative to the size of the font: that of its longest line.
 pub fn width(text: &str) -> f64 {
     let line = |line: &str| runs(line).map(|run| run.level.size() * font::width(run.letters)).sum();
@@ -346,6 +360,7 @@ mod tests {
         let expected = font::width("x and") + SCRIPT_SIZE * font::width("max");
         assert!((width(&text) - expected).abs() < 1e-9);
         assert_eq!(closed(text[..4].to_owned()), "x\u{11}ma\u{13}");
+        assert_eq!(plain("v\u{11}0\u{13} m\u{12}-1\u{13}"), "v_0 m^-1");
         assert_eq!(closed(text.clone()), text);
     }
 }

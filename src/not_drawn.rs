@@ -1,6 +1,7 @@
 //! Warnings about arrows, trails, plots and other things that a scene requests but no image shows.
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::lettering;
 use crate::picture::number::rounded;
 use crate::picture::{NotDrawn, Reason, RequestedItem, UnseenPlot};
 use crate::scene::{Quantity, Scene};
@@ -85,7 +86,7 @@ pub(crate) fn of_plot(scene: &Scene, unseen: &UnseenPlot) -> Diagnostic {
     let plot = |plot: usize| format!("the plot `{}`", scene.plots[plot].name);
     let curve = |of: usize, curve: usize| {
         let noun = scene.plots[of].kind.noun();
-        format!("the {noun} `{}` of {}", scene.plots[of].curves[curve].name, plot(of))
+        format!("the {noun} `{}` of {}", lettering::plain(&scene.plots[of].curves[curve].name), plot(of))
     };
     let curve_at = |of: usize, curve: usize| scene.places.plots[of].curves[curve];
     match *unseen {

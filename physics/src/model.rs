@@ -150,7 +150,7 @@ impl Model {
     }
 
     /// Returns true if loads can move a body. A body held at rest counts as movable.
-    pub(super) fn can_move(&self, body: usize) -> bool {
+    pub(crate) fn can_move(&self, body: usize) -> bool {
         self.inverse_mass[body] != 0.0 || self.frozen.contains_key(&body)
     }
 

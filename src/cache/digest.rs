@@ -88,7 +88,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
             writeln!(text, "{shape:?} {collider:?}")?;
         }
     }
-    for Force { name: _, kind, emitters: _ } in forces {
+    for Force { name: _, kind, emitters: _, arrow: _ } in forces {
         match kind {
             ForceKind::Spring { links, look: _ } => writeln!(text, "{links:?}")?,
             ForceKind::Buoyancy { liquid, surface: _ } => writeln!(text, "{liquid:?}")?,

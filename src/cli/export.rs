@@ -28,7 +28,7 @@ pub(super) struct Arguments {
     /// The scene file
     #[arg(required_unless_present = "events")]
     scene: Option<PathBuf>,
-    /// The file to write: FILE.csv or FILE.glb; with `--plot` FILE.svg, FILE.png or FILE.pdf
+    /// The file to write: FILE.csv or FILE.glb; with `--plot` FILE.svg, FILE.png, FILE.pdf or FILE.csv
     #[arg(short, long, value_name = "FILE", required_unless_present = "events")]
     output: Option<PathBuf>,
     /// Write the forces and torques of the joints as a table, instead of the positions of the bodies
@@ -42,7 +42,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FILE", num_args = 0..=1, conflicts_with_all = ["joints", "frames"])]
     events: Option<Option<PathBuf>>,
     /// Write the plot `[plot.NAME]` of the scene as a drawing (SVG or PDF) or an image (PNG), with its curves over the whole run, or with the bars
-    /// of its last moment
+    /// of its last moment; or as a table (CSV) of its values in each frame
     #[arg(long, value_name = "NAME", conflicts_with_all = ["joints", "particles", "events", "frames"])]
     plot: Option<String>,
     /// The width of the image of a plot, in pixels
@@ -121,7 +121,8 @@ fn in_words(FileKind { noun, extension }: &FileKind) -> String {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let files = arguments.files()?;
     let output = files.output;
-    let files_of_plot = [PlotFile::Svg, PlotFile::Png { width: arguments.width }, PlotFile::Pdf];
+    let files_of_plot =
+        [PlotFile::Svg, PlotFile::Png { width: arguments.width }, PlotFile::Pdf, PlotFile::Csv];
     let drawing = |name: &String| files_of_plot.map(|file| PlotDrawing { name: name.clone(), file });
     let drawings = arguments.plot.as_ref().map(drawing);
     let of_plot = drawings.iter().flatten().map(|drawing| drawing as &dyn Format);

@@ -23,6 +23,7 @@ mod glb;
 mod joints;
 mod particles;
 mod plot;
+mod plot_values;
 mod table;
 
 pub use self::bodies::{HEADER, write_csv};

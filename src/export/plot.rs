@@ -1,10 +1,12 @@
-//! Writes a plot of a scene as a drawing (SVG, PNG or PDF), with the curves of the whole run, or the bars of its last moment.
+//! Writes a plot of a scene as a drawing (SVG, PNG or PDF), with the curves of the whole run, or the bars of its last moment, or as a table of
+//! its values.
 
 use std::borrow::Cow;
 use std::io::{self, Write};
 
 use super::ExportError;
-use super::format::{Contents, DRAWING, FileKind, Format, IMAGE, PAGE};
+use super::format::{Contents, DRAWING, FileKind, Format, IMAGE, PAGE, TABLE};
+use super::plot_values;
 use crate::diagnostic::nearest;
 use crate::drawing::{Drawing, Item};
 use crate::picture::{PlannedPlot, PlotBar, PlotLine, plot_alone};
@@ -42,6 +44,8 @@ pub enum PlotFile {
     },
     /// Lines and letters on a page in PDF.
     Pdf,
+    /// A table of the values in each frame.
+    Csv,
 }
 
 impl PlotFile {
@@ -78,6 +82,7 @@ impl Format for PlotDrawing {
             PlotFile::Svg => &DRAWING,
             PlotFile::Png { .. } => &IMAGE,
             PlotFile::Pdf => &PAGE,
+            PlotFile::Csv => &TABLE,
         }
     }
 
@@ -92,7 +97,7 @@ impl Format for PlotDrawing {
     fn write(
         &self,
         run: &Recorded<'_>,
-        _selection: &Selection,
+        selection: &Selection,
         out: &mut dyn Write,
     ) -> Result<Contents, ExportError> {
         let scene = run.scene();
@@ -104,12 +109,16 @@ impl Format for PlotDrawing {
             PlotFile::Svg => drawing.svg(FONTS).into_bytes(),
             PlotFile::Png { width } => drawing.png(width).map_err(io::Error::from)?,
             PlotFile::Pdf => drawing.pdf(),
+            PlotFile::Csv => {
+                let rows = plot_values::write(run, number, selection, out)?;
+                return Ok(Contents::of_rows(rows, &format!("the plot {}", self.name), run, selection));
+            }
         };
         out.write_all(&bytes)?;
         let plot = &scene.plots[number];
         let (count, noun) = match plot.kind {
             PlotKind::Histogram { bins, .. } => (usize::from(bins), "bin"),
-            PlotKind::Curves | PlotKind::Bars => (plot.curves.len(), plot.kind.noun()),
+            PlotKind::Curves | PlotKind::Bars { .. } => (plot.curves.len(), plot.kind.noun()),
         };
         let words = match count {
             1 => format!("1 {noun}"),

@@ -1,6 +1,7 @@
 //! Arrows that show vectors of bodies and joints, and the coordinate axes of bodies.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -11,7 +12,7 @@ use super::thing::{Form, Line, Thing};
 use crate::decimal::decimal_step;
 use crate::physics::{BodyId, BodySnapshot, ContactSnapshot, find};
 use crate::scene::{self, ArrowOwner, Body, Color, Joint, Quantity, Scene};
-use crate::simulate::{Frame, Ghost, JointEnd, Load, axis, loads_on, root, shown};
+use crate::simulate::{Frame, Ghost, JointEnd, Load, Measures, MomentState, axis, loads_on, root, shown};
 
 /// The colors of arrows on light backgrounds, in the order of [`Quantity::color`]. They are easy to tell apart, and rarely used for
 /// bodies.
@@ -23,6 +24,7 @@ const COLORS: [Color; Quantity::COLORS] = [
     Color([0.20, 0.62, 0.16]),
     Color([0.85, 0.10, 0.10]),
     Color([0.96, 0.78, 0.05]),
+    Color([0.0, 0.52, 0.58]),
 ];
 /// The colors of arrows on dark backgrounds, in the order of [`Quantity::color`].
 const LIGHT_COLORS: [Color; Quantity::COLORS] = [
@@ -33,12 +35,13 @@ const LIGHT_COLORS: [Color; Quantity::COLORS] = [
     Color([0.55, 0.95, 0.40]),
     Color([1.0, 0.40, 0.35]),
     Color([1.0, 0.92, 0.35]),
+    Color([0.30, 0.85, 0.90]),
 ];
 
-/// An arrow that shows a vector of a body or of a joint.
+/// An arrow that shows a vector of a body, a joint or a named force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Arrow {
-    /// The body or joint that has the arrow.
+    /// The body, joint or force that has the arrow.
     pub(super) owner: ArrowOwner,
     /// The index of the body at which the arrow begins. `None` for an arrow of a joint between fixed points.
     pub(super) body: Option<usize>,
@@ -77,6 +80,9 @@ pub(super) struct Arrows {
     of_joints: Vec<OfJoint>,
     /// The names of the joints that have arrows, by their indices.
     joint_names: BTreeMap<usize, String>,
+    /// The names of the forces that have arrows, by their indices.
+    force_names: BTreeMap<usize, String>,
+    measures: Arc<Measures>,
     /// The scene and the colors of arrows. `None` if the scene shows no weights or contact forces.
     of_loads: Option<(Box<Scene>, [Color; Quantity::COLORS])>,
     /// The length of the longest vector of each quantity in the run, in the unit of the quantity. Only arrows without a given scale count.
@@ -96,14 +102,14 @@ struct OfJoint {
     color: Color,
 }
 
-/// A requested arrow of a body.
+/// A requested arrow at a body.
 #[derive(Clone, Debug)]
 struct Planned {
     /// The index of the body in `Arrows::bodies`.
     of: usize,
+    /// The body, or the force whose arrow is at the body.
+    owner: ArrowOwner,
     quantity: Quantity,
-    /// The index of the quantity in [`Quantity::OF_BODIES`].
-    kind: usize,
     /// The drawn length of one unit of the quantity, m. `None` if the scene gives no scale.
     scale: Option<f64>,
     color: Color,
@@ -151,18 +157,29 @@ impl Arrow {
 }
 
 impl Arrows {
-    pub(super) fn new(scene: &Scene, longest: [f64; Quantity::COUNT]) -> Arrows {
-        let shows = |body: &Body| body.showing.axes.is_some() || body.showing.has_arrows();
-        let bodies = scene.bodies.iter().enumerate().filter(|(_, body)| shows(body));
+    /// Plans the arrows of a scene. `measures` are those of the scene.
+    pub(super) fn new(scene: &Scene, longest: [f64; Quantity::COUNT], measures: Arc<Measures>) -> Arrows {
+        let of_forces: Vec<(usize, usize)> = scene.arrows_of_forces().collect();
+        let shows = |(number, body): &(usize, &Body)| {
+            body.showing.axes.is_some()
+                || body.showing.has_arrows()
+                || of_forces.binary_search_by_key(number, |(_, body)| *body).is_ok()
+        };
+        let bodies = scene.bodies.iter().enumerate().filter(shows);
         let bodies: Vec<(usize, Body)> = bodies.map(|(number, body)| (number, body.clone())).collect();
         let colors = if scene.environment.is_dark() { LIGHT_COLORS } else { COLORS };
         let mut arrows = Vec::new();
-        for (of, (_, body)) in bodies.iter().enumerate() {
-            for (kind, quantity) in Quantity::OF_BODIES.into_iter().enumerate() {
-                let Some(arrow) = body.showing.arrows[kind] else { continue };
-                let color = arrow.color.unwrap_or(colors[kind]);
-                arrows.push(Planned { of, quantity, kind, scale: arrow.scale, color });
-            }
+        for (of, (number, body)) in bodies.iter().enumerate() {
+            let own = Quantity::OF_BODIES.into_iter().zip(body.showing.arrows);
+            let own = own.map(|(quantity, arrow)| (ArrowOwner::Body(*number), quantity, arrow));
+            let its = of_forces.iter().filter(|(_, body)| body == number).map(|(force, _)| {
+                (ArrowOwner::Force(*force), Quantity::NamedForce, scene.forces[*force].arrow)
+            });
+            arrows.extend(own.chain(its).filter_map(|(owner, quantity, arrow)| {
+                let scene::Arrow { scale, color } = arrow?;
+                let color = color.unwrap_or(colors[quantity.color()]);
+                Some(Planned { of, owner, quantity, scale, color })
+            }));
         }
         let of_joints = scene.joints.iter().enumerate().flat_map(|(number, joint)| {
             let [first, second] = joint.kind.between().map(|end| end.body().map(BodyId::index));
@@ -177,12 +194,14 @@ impl Arrows {
         let has_arrows = |joint: &Joint| joint.arrows.iter().any(Option::is_some);
         let named = scene.joints.iter().enumerate().filter(|(_, joint)| has_arrows(joint));
         let joint_names = named.map(|(number, joint)| (number, joint.name.clone())).collect();
+        let named = of_forces.iter().map(|(force, _)| (*force, scene.forces[*force].name.clone()));
+        let force_names = named.collect();
         let of_loads = scene
             .bodies
             .iter()
             .any(|body| body.showing.has_loads())
             .then(|| (Box::new(scene.clone()), colors));
-        Arrows { bodies, arrows, of_joints, joint_names, of_loads, longest }
+        Arrows { bodies, arrows, of_joints, joint_names, force_names, measures, of_loads, longest }
     }
 
     /// The sizes of arrows in all pictures of a fixed camera. `scales` are the scales that its position was chosen for.
@@ -199,8 +218,9 @@ impl Arrows {
     pub(super) fn arrows(&self, frame: &Frame, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
         let of_one = self.arrows.chunk_by(|one, next| one.of == next.of);
         let of_one = of_one.filter_map(|its| Some((its, frame.body(self.bodies[its[0].of].0)?)));
+        let now = MomentState::now(frame);
         let mut arrows: Vec<Arrow> =
-            of_one.flat_map(|(its, at)| self.of_body(its, at, sizes, camera)).collect();
+            of_one.flat_map(|(its, at)| self.of_body(its, (at, &now), sizes, camera)).collect();
         arrows.extend(self.loads((&frame.bodies, &frame.contacts), sizes, camera));
         arrows.extend(self.of_joints.iter().filter_map(|arrow| {
             let (from, vector) = arrow.end.arrow(arrow.quantity, frame)?;
@@ -254,6 +274,7 @@ impl Arrows {
         let owner = match arrow.owner {
             ArrowOwner::Body(body) => self.body(body).map(|body| &*body.name),
             ArrowOwner::Joint(joint) => self.joint_names.get(&joint).map(String::as_str),
+            ArrowOwner::Force(force) => self.force_names.get(&force).map(String::as_str),
         };
         let name = format!("{}, {}", owner.unwrap_or_default(), arrow.quantity.name());
         Thing { name: name.into(), form: Form::Arrow { from, to, radius }, color }
@@ -267,6 +288,11 @@ impl Arrows {
             Some((*number, Thing { name: format!("{}, axes", body.name).into(), form, color: Color::WHITE }))
         };
         self.bodies.iter().filter_map(axes).collect()
+    }
+
+    /// The measures of the scene.
+    pub(super) fn measures(&self) -> &Measures {
+        &self.measures
     }
 
     /// The body with an index in the scene, if it has arrows or axes.
@@ -285,27 +311,42 @@ impl Arrows {
             return Vec::new();
         }
         let [first, end] = [of, of + 1].map(|of| self.arrows.partition_point(|arrow| arrow.of < of));
-        let mut arrows = self.of_body(&self.arrows[first..end], at, sizes, camera);
+        let then = MomentState::then(ghost);
+        let mut arrows = self.of_body(&self.arrows[first..end], (at, &then), sizes, camera);
         arrows.extend(self.loads((&[*at], contacts), sizes, camera));
         arrows
     }
 
-    /// Computes the arrows of one body. Arrows in nearly the same direction are placed side by side.
-    fn of_body(&self, its: &[Planned], at: &BodySnapshot, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
-        let mut arrows: Vec<Arrow> = its.iter().filter_map(|arrow| self.arrow(arrow, at, sizes)).collect();
+    /// Computes the arrows of one body at a moment. Arrows in nearly the same direction are placed side by side.
+    fn of_body(
+        &self,
+        its: &[Planned],
+        (at, moment): (&BodySnapshot, &MomentState<'_>),
+        sizes: ArrowSizes,
+        camera: &Placed,
+    ) -> Vec<Arrow> {
+        let arrow = |arrow| self.arrow(arrow, (at, moment), sizes);
+        let mut arrows: Vec<Arrow> = its.iter().filter_map(arrow).collect();
         if arrows.len() > 1 {
             beside::apart(&mut arrows, &self.bodies[its[0].of].1, at, camera);
         }
         arrows
     }
 
-    fn arrow(&self, arrow: &Planned, at: &BodySnapshot, sizes: ArrowSizes) -> Option<Arrow> {
+    fn arrow(
+        &self,
+        arrow: &Planned,
+        (at, moment): (&BodySnapshot, &MomentState<'_>),
+        sizes: ArrowSizes,
+    ) -> Option<Arrow> {
         let (number, body) = &self.bodies[arrow.of];
-        let vector = shown(arrow.quantity, body, at);
+        let vector = match arrow.owner {
+            ArrowOwner::Force(force) => self.measures.force_on(*number, force, moment)?,
+            ArrowOwner::Body(_) | ArrowOwner::Joint(_) => shown(arrow.quantity, body, at),
+        };
         let from = root(body, at, vector);
-        let to = from + vector * arrow.scale.unwrap_or(sizes.scales[arrow.kind]);
-        let Planned { quantity, color, .. } = *arrow;
-        let owner = ArrowOwner::Body(*number);
+        let Planned { owner, quantity, scale, color, .. } = *arrow;
+        let to = from + vector * scale.unwrap_or(sizes.scales[quantity.number()]);
         is_seen(from, to, sizes).then_some(Arrow {
             owner,
             body: Some(*number),

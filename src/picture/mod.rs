@@ -44,6 +44,7 @@ mod scope;
 mod screen;
 mod sight;
 mod stage;
+mod surroundings;
 #[cfg(test)]
 mod tests;
 mod text;

@@ -16,6 +16,8 @@ pub struct Force {
     pub name: String,
     /// The kind of the force, with its parameters.
     pub kind: ForceKind,
+    /// The arrows of the force at its bodies. `None` if they are not drawn.
+    pub arrow: Option<super::Arrow>,
     /// The indices of the emitters whose particles the force acts on.
     pub emitters: Vec<usize>,
 }

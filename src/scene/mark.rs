@@ -25,12 +25,12 @@ pub struct Angle {
     pub color: Option<Color>,
 }
 
-/// The direction of a leg of an angle.
+/// The direction of a leg of an angle, or of a component of an arrow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Leg {
     /// A fixed direction, a unit vector in world axes.
     Along(DVec3),
-    /// The direction from the vertex to a point.
+    /// The direction from the vertex of the angle, or from the arrow's body, to a point.
     Towards(Anchor),
     /// The direction of a vector of a body.
     Of {
@@ -106,19 +106,21 @@ pub struct ArrowMark {
 /// The two components of an arrow: the one along a direction, and the one across it.
 #[derive(Clone, Debug)]
 pub struct Components {
-    /// The direction, a unit vector in world axes.
-    pub along: DVec3,
+    /// The direction, as seen from the center of the arrow's body, or from the beginning of the arrow of a joint.
+    pub along: Leg,
     /// The texts at the tips of both components. `None` for no texts.
     pub texts: Option<[Vec<Piece>; 2]>,
 }
 
-/// The body or joint that has an arrow, by its index in the scene.
+/// The body, joint or force that has an arrow, by its index in the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ArrowOwner {
     /// A body.
     Body(usize),
     /// A joint.
     Joint(usize),
+    /// A named force, with an arrow at each of its bodies.
+    Force(usize),
 }
 
 /// The Greek letters by their English names.

@@ -247,11 +247,35 @@ impl Scene {
         labels.chain(angles).chain(distances).chain(arrows).chain(components)
     }
 
-    /// Returns whether the pictures show values of the moment, in letters or as looks.
+    /// Returns all formulas of measures: of texts, plots, colors, and of the aggregates in them.
+    pub fn formulas(&self) -> impl Iterator<Item = &MeasureFormula> {
+        let of_texts = self.texts().flatten().filter_map(|piece| match piece {
+            Piece::Value { formula, .. } => Some(formula),
+            Piece::Words(_) => None,
+        });
+        let of_plots = self
+            .plots
+            .iter()
+            .flat_map(|plot| std::iter::once(&plot.x).chain(plot.curves.iter().map(|curve| &curve.y)));
+        let of_aggregates = self.aggregates.iter().map(|it| &it.formula);
+        let of_colors = self.color_maps.iter().map(|map| &map.of);
+        let of_numbers = self.value_maps.iter().map(|map| &map.of);
+        let of_looks = of_colors.chain(of_numbers).chain(&self.conditions);
+        of_texts.chain(of_plots).chain(of_aggregates).chain(of_looks)
+    }
+
+    /// Returns whether a formula shows a quantity of bodies for which `is` is true.
+    pub fn shows_of_bodies(&self, is: impl Fn(BodyMeasure) -> bool) -> bool {
+        let mut inputs = self.formulas().flat_map(|formula| &formula.inputs);
+        inputs.any(|input| matches!(input, Measure::Body(_, measure) if is(*measure)))
+    }
+
+    /// Returns whether the pictures show values of the moment, in letters, as looks or as arrows of named forces.
     pub fn shows_measures(&self) -> bool {
         let has_looks =
             !self.color_maps.is_empty() || !self.value_maps.is_empty() || !self.conditions.is_empty();
-        has_looks || self.writes_measures()
+        let has_arrows = self.forces.iter().any(|force| force.arrow.is_some());
+        has_looks || has_arrows || self.writes_measures()
     }
 
     /// Returns whether the pictures have texts with values: labels, plots, color bars, or marks.
@@ -261,6 +285,18 @@ impl Scene {
             || !self.labels.is_empty()
             || !self.plots.is_empty()
             || self.color_maps.iter().any(|map| map.bar.is_some())
+    }
+
+    /// Returns the arrows of named forces, in the order of bodies, then of forces: the index of the force, and that of the body.
+    pub fn arrows_of_forces(&self) -> impl Iterator<Item = (usize, usize)> {
+        let forces = self.forces.iter().enumerate().filter(|(_, force)| force.arrow.is_some());
+        let bodies = forces.flat_map(|(number, force)| {
+            force.kind.bodies().into_iter().map(move |body| (body.index(), number))
+        });
+        let mut arrows: Vec<(usize, usize)> =
+            bodies.filter(|(body, _)| !self.bodies[*body].start.fixed).collect();
+        arrows.sort_unstable();
+        arrows.into_iter().map(|(body, force)| (force, body))
     }
 
     /// Returns the color map of a body. `None` if the color of the body stays.

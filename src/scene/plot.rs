@@ -23,6 +23,8 @@ pub struct Plot {
     pub place: PlotPlace,
     /// The width of the plot as a fraction of the picture's width. `None` for a width at which it is easy to read.
     pub width: Option<f64>,
+    /// The lowest and the highest value of the horizontal axis. `None` for the values of the curves.
+    pub x_range: Option<[f64; 2]>,
     /// The lowest and the highest value of the vertical axis. `None` for the values of the curves.
     pub range: Option<[f64; 2]>,
     /// Whether the horizontal and the vertical axis are logarithmic.
@@ -39,7 +41,10 @@ pub enum PlotKind {
     /// Curves of measures, against the time or another measure.
     Curves,
     /// A bar for each measure, as high as its present value.
-    Bars,
+    Bars {
+        /// Whether the measures are the same one of each copy of a body. The bars then have one color.
+        are_copies: bool,
+    },
     /// How many of several bodies have values within equal ranges, at the present moment. The only curve of the plot has the formula.
     Histogram {
         /// The indices of the bodies in the scene, in ascending order.
@@ -67,6 +72,8 @@ pub struct Curve {
     pub name: String,
     /// The measure upwards.
     pub y: MeasureFormula,
+    /// The color of the curve. `None` for that of its body, or one of its own.
+    pub color: Option<Color>,
 }
 
 impl PlotKind {
@@ -74,7 +81,7 @@ impl PlotKind {
     pub fn noun(&self) -> &'static str {
         match self {
             PlotKind::Curves => "curve",
-            PlotKind::Bars => "bar",
+            PlotKind::Bars { .. } => "bar",
             PlotKind::Histogram { .. } => "histogram",
         }
     }
@@ -93,6 +100,8 @@ impl Plot {
 
     /// The maximum number of curves in a plot. More could not be told apart.
     pub const MAX_CURVES: usize = Color::OF_CURVES.len();
+    /// The maximum number of bars of a plot. Between more, their names would have no room.
+    pub const MAX_BARS: usize = 24;
     /// The largest number of bins of a histogram.
     pub const MAX_BINS: u8 = 200;
     /// The largest value that an axis can have.

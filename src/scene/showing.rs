@@ -49,13 +49,15 @@ pub enum Quantity {
     Normal,
     /// The friction force at a contact of a body, N.
     Friction,
+    /// One of the named forces on a body, N.
+    NamedForce,
 }
 
 impl Quantity {
-    /// The number of arrow scales. Weight, normal force and friction share one scale.
+    /// The number of arrow scales. Weight, normal force, friction and named forces share one scale.
     pub const COUNT: usize = 5;
     /// The number of arrow colors, one for each quantity.
-    pub const COLORS: usize = 7;
+    pub const COLORS: usize = 8;
 
     /// The quantities for the arrows of a body, without its loads.
     pub const OF_BODIES: [Quantity; 3] = [Quantity::Velocity, Quantity::Acceleration, Quantity::Force];
@@ -66,8 +68,8 @@ impl Quantity {
     /// The quantities for the arrows of a joint.
     pub const OF_JOINTS: [Quantity; 2] = [Quantity::Force, Quantity::Torque];
 
-    /// Returns the index of the quantity's arrow scale. Weight, normal force and friction share a scale, so that their arrows can be
-    /// compared.
+    /// Returns the index of the quantity's arrow scale. Weight, normal force, friction and named forces share a scale, so that their arrows
+    /// can be compared.
     pub fn number(self) -> usize {
         self.color().min(Self::COUNT - 1)
     }
@@ -87,6 +89,7 @@ impl Quantity {
             Quantity::Weight => "weight",
             Quantity::Normal => "normal",
             Quantity::Friction => "friction",
+            Quantity::NamedForce => "force",
         }
     }
 }

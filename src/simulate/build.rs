@@ -6,15 +6,17 @@ mod joints;
 mod stepping;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use glam::DVec3;
 
 pub(crate) use self::forces::forces;
 use self::joints::constraint;
 use crate::physics::{
-    Accuracy, BodyId, ContactPolicy, Contacts, Dynamics, PairCounter, RigidBody, Shape, UniformGravity, World,
+    Accuracy, BodyId, ContactPolicy, Contacts, Dynamics, Force, PairCounter, RigidBody, Shape,
+    UniformGravity, World,
 };
-use crate::scene::{Body, ContactLaw, Scene, is_by_moreau};
+use crate::scene::{Body, BodyMeasure, ContactLaw, Scene, is_by_moreau};
 
 /// Builds the dynamics that a scene asks for: a plain world, a world that an adaptive method advances, or, for many bodies in contact, the
 /// time-stepping engine.
@@ -47,7 +49,9 @@ fn is_for_many_bodies(scene: &Scene) -> bool {
 /// tens of thousands in a pile.
 pub fn lists_contacts(scene: &Scene) -> bool {
     let shows = |body: &Body| body.showing.loads[1..].iter().any(Option::is_some);
-    !is_for_many_bodies(scene) || scene.bodies.iter().any(shows)
+    !is_for_many_bodies(scene)
+        || scene.bodies.iter().any(shows)
+        || scene.shows_of_bodies(BodyMeasure::is_contact_force)
 }
 
 /// Builds the world of a scene in its initial state. A body has the same index in the scene and in the world. A ground that stops bodies
@@ -74,12 +78,16 @@ fn free_world(scene: &Scene) -> World {
     world.reserve(scene.bodies.len());
     scene.bodies.iter().for_each(|body| add(&mut world, body));
     world.add_shapes(scene.bodies.iter().map(|body| body.shape.clone()));
-    if scene.simulation.gravity != DVec3::ZERO {
-        world.add_force(UniformGravity { acceleration: scene.simulation.gravity });
-    }
-    scene.forces.iter().flat_map(|force| forces(&force.kind)).for_each(|force| world.add_shared_force(force));
+    forces_of(scene).for_each(|force| world.add_shared_force(force));
     scene.joints.iter().filter_map(|joint| joint.servo.clone()).for_each(|servo| world.add_force(servo));
     world
+}
+
+/// Returns the gravity and the named forces of a scene, in the order in which a world adds them up.
+pub(super) fn forces_of(scene: &Scene) -> impl Iterator<Item = Arc<dyn Force>> {
+    let acceleration = scene.simulation.gravity;
+    let gravity = (acceleration != DVec3::ZERO).then(|| Arc::new(UniformGravity { acceleration }) as Arc<_>);
+    gravity.into_iter().chain(scene.forces.iter().flat_map(|force| forces(&force.kind)))
 }
 
 /// True if every body is fixed or has a prescribed motion.

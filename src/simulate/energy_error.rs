@@ -86,7 +86,13 @@ impl EnergyError {
     pub(crate) fn drift(&self, contacts: Option<ContactLaw>) -> f64 {
         /// Energies below this fraction of `magnitude` are rounding errors of contacts and joints.
         const RELATIVE_ROUNDING: f64 = 1e-10;
+        /// Errors below this fraction of `magnitude` are rounding errors of the energies themselves.
+        const RELATIVE_ROUNDING_OF_ENERGIES: f64 = 1e-13;
         let (_, energy) = self.scale(contacts);
+        if self.largest.abs() <= RELATIVE_ROUNDING_OF_ENERGIES * self.magnitude && energy < self.largest.abs()
+        {
+            return 0.0;
+        }
         if contacts.is_some() && energy <= RELATIVE_ROUNDING * self.magnitude {
             return 0.0;
         }
@@ -131,7 +137,9 @@ mod tests {
         let mut error = EnergyError::default();
         error.add(&Balance { kinetic: 1e-20, potential: -50.0, error: 1e-12, ..Balance::default() });
         assert_eq!(error.drift(Some(ContactLaw::TimeStepping)), 0.0);
-        assert_eq!(error.drift(None), 1e8);
+        assert_eq!(error.drift(None), 0.0);
+        error.add(&Balance { kinetic: 1e-20, potential: -50.0, error: 1e-9, ..Balance::default() });
+        assert!((error.drift(None) / 1e11 - 1.0).abs() < 1e-9, "more than rounding");
     }
 
     #[test]

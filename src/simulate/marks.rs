@@ -24,20 +24,12 @@ impl AngleNow {
     /// absent, or if a leg has no direction.
     pub fn of(angle: &Angle, scene_bodies: &[Body], bodies: &[BodySnapshot]) -> Option<AngleNow> {
         let vertex = place(angle.vertex, bodies)?;
-        let direction = |leg: Leg| match leg {
-            Leg::Along(direction) => Some(direction),
-            Leg::Towards(point) => (place(point, bodies)? - vertex).try_normalize(),
-            Leg::Of { body, quantity, negligible } => {
-                let vector = shown(quantity, &scene_bodies[body], find(bodies, body)?);
-                vector.try_normalize().filter(|_| vector.length() > negligible)
-            }
-        };
         // As seen along the axis, a leg has only its part across the axis.
         let across = |leg: DVec3| match angle.axis {
             Some(axis) => (leg - axis * leg.dot(axis)).try_normalize(),
             None => Some(leg),
         };
-        let [from, to] = angle.legs.map(|leg| across(direction(leg)?));
+        let [from, to] = angle.legs.map(|leg| across(direction(leg, vertex, scene_bodies, bodies)?));
         let (from, to) = (from?, to?);
         let turn = from.cross(to);
         // The arctangent keeps all digits of small and of flat angles, which the arccosine loses.
@@ -78,6 +70,24 @@ impl DistanceNow {
         let way = distance.along.map_or(way, |along| along * way.dot(along));
         let begin = ends[0] + distance.offset;
         Some(DistanceNow { ends, line: [begin, begin + way], value: way.length() })
+    }
+}
+
+/// The direction of a leg that begins at `vertex`, m: a unit vector. `scene_bodies` are the bodies of the scene. `None` while its body is absent,
+/// or if it has no direction.
+pub(crate) fn direction(
+    leg: Leg,
+    vertex: DVec3,
+    scene_bodies: &[Body],
+    bodies: &[BodySnapshot],
+) -> Option<DVec3> {
+    match leg {
+        Leg::Along(direction) => Some(direction),
+        Leg::Towards(point) => (place(point, bodies)? - vertex).try_normalize(),
+        Leg::Of { body, quantity, negligible } => {
+            let vector = shown(quantity, &scene_bodies[body], find(bodies, body)?);
+            vector.try_normalize().filter(|_| vector.length() > negligible)
+        }
     }
 }
 

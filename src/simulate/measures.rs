@@ -12,15 +12,15 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::build::forces;
+use super::build::{forces, forces_of};
 use super::simulation::Entry;
 use super::{AngleNow, DistanceNow, Frame, Ghost, ImpactCounts, Sector, shown};
 use crate::physics::{
-    Balance, BodyId, BodySnapshot, Coordinate, Force, Loads, Moment, Presence, Reaction, RigidBody, World,
-    find,
+    Balance, BodyId, BodySnapshot, ContactSnapshot, Coordinate, Force, Kinematics, Loads, Moment, Motion,
+    Presence, Reaction, RigidBody, World, find,
 };
 use crate::scene::{
-    Aggregate, Angle, Body, BodyMeasure, Distance, ForceMeasure, JointState, Measure, MeasureFormula, Piece,
+    Aggregate, Angle, Body, BodyMeasure, Distance, ForceMeasure, JointState, Measure, MeasureFormula,
     Quantity, RunMeasure, Scene, Subject,
 };
 
@@ -34,6 +34,8 @@ pub struct MomentState<'a> {
     reactions: &'a [Reaction],
     /// The angles of the joints, counted through full turns, rad. Empty for a ghost.
     angles: &'a [f64],
+    /// The contacts that persist. `None` for a ghost.
+    contacts: Option<&'a [ContactSnapshot]>,
     /// The numbers of impacts up to the moment. `None` for a ghost.
     impacts: Option<&'a ImpactCounts>,
     /// The complete sectors of each swept area. Empty for a ghost.
@@ -48,6 +50,10 @@ struct Computed {
     aggregates: RefCell<HashMap<usize, f64>>,
     /// The loads of forces, by their indices in the scene.
     loads: RefCell<HashMap<usize, Rc<Loads>>>,
+    /// The potential energies of forces, J, by their indices in the scene: the share of each body.
+    potentials: RefCell<HashMap<usize, Rc<[f64]>>>,
+    /// The share of each body in the potential energy of all forces, J.
+    potential: OnceCell<Vec<f64>>,
     /// The bodies of the moment, for forces.
     world: OnceCell<World>,
 }
@@ -62,6 +68,7 @@ impl<'a> MomentState<'a> {
             bodies: &frame.bodies,
             reactions: &frame.reactions,
             angles: &frame.angles,
+            contacts: Some(&frame.contacts),
             impacts: Some(&frame.impacts),
             areas: &frame.past.areas,
             computed: Computed::default(),
@@ -88,6 +95,7 @@ impl<'a> MomentState<'a> {
             bodies: &moment.bodies,
             reactions: &moment.reactions,
             angles: &moment.angles,
+            contacts: Some(&moment.contacts),
             impacts: Some(&entry.counts),
             areas,
             computed: Computed::default(),
@@ -108,6 +116,7 @@ impl<'a> MomentState<'a> {
             bodies: std::slice::from_ref(&ghost.body),
             reactions: &[],
             angles: &[],
+            contacts: None,
             impacts: None,
             areas: &[],
             computed: Computed::default(),
@@ -115,13 +124,13 @@ impl<'a> MomentState<'a> {
     }
 }
 
-/// The types of a named force, for the forces that measures show.
+/// Forces that measures show: those of one name, or all.
 #[derive(Clone)]
-struct ShownForce(Vec<Arc<dyn Force>>);
+struct ShownForces(Vec<Arc<dyn Force>>);
 
-impl fmt::Debug for ShownForce {
+impl fmt::Debug for ShownForces {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("ShownForce").field(&self.0.len()).finish()
+        f.debug_tuple("ShownForces").field(&self.0.len()).finish()
     }
 }
 
@@ -136,41 +145,31 @@ pub struct Measures {
     joints: Vec<Option<Coordinate>>,
     aggregates: Vec<Aggregate>,
     /// The forces that measures show, by their indices in the scene.
-    forces: BTreeMap<usize, ShownForce>,
+    forces: BTreeMap<usize, ShownForces>,
+    /// All forces, if measures show potential energies of bodies.
+    all_forces: ShownForces,
 }
 
 impl Measures {
     /// Prepares the measures of a scene.
     pub fn new(scene: &Scene) -> Measures {
         let joints = scene.joints.iter().map(|joint| joint.kind.coordinate()).collect();
-        let of_texts = scene.texts().flatten().filter_map(|piece| match piece {
-            Piece::Value { formula, .. } => Some(formula),
-            Piece::Words(_) => None,
-        });
-        let of_plots = scene
-            .plots
-            .iter()
-            .flat_map(|plot| std::iter::once(&plot.x).chain(plot.curves.iter().map(|curve| &curve.y)));
-        let of_aggregates = scene.aggregates.iter().map(|it| &it.formula);
-        let of_colors = scene.color_maps.iter().map(|map| &map.of);
-        let of_numbers = scene.value_maps.iter().map(|map| &map.of);
-        let formulas = of_texts
-            .chain(of_plots)
-            .chain(of_aggregates)
-            .chain(of_colors)
-            .chain(of_numbers)
-            .chain(&scene.conditions);
-        let shown = formulas.flat_map(|formula| &formula.inputs).filter_map(|measure| match measure {
-            Measure::Force(force, ..) => Some((*force, ShownForce(forces(&scene.forces[*force].kind)))),
-            _ => None,
-        });
+        let shown =
+            scene.formulas().flat_map(|formula| &formula.inputs).filter_map(|measure| match measure {
+                Measure::Force(force, ..) => Some((*force, ShownForces(forces(&scene.forces[*force].kind)))),
+                _ => None,
+            });
+        let with_arrows = scene.forces.iter().enumerate().filter(|(_, force)| force.arrow.is_some());
+        let with_arrows = with_arrows.map(|(number, force)| (number, ShownForces(forces(&force.kind))));
+        let shows_potential = scene.shows_of_bodies(|measure| measure == BodyMeasure::Potential);
         Measures {
             bodies: if scene.shows_measures() { scene.bodies.clone() } else { Vec::new() },
             joints,
             angles: scene.angles.clone(),
             distances: scene.distances.clone(),
             aggregates: scene.aggregates.clone(),
-            forces: shown.collect(),
+            forces: shown.chain(with_arrows).collect(),
+            all_forces: ShownForces(if shows_potential { forces_of(scene).collect() } else { Vec::new() }),
         }
     }
 
@@ -209,10 +208,18 @@ impl Measures {
                 moment.balance.map_or(f64::NAN, |balance| balance.angular_momentum[axis])
             }
             Measure::Run(RunMeasure::Drift) => energy(|balance| balance.drift),
+            Measure::Run(RunMeasure::Account(number)) => {
+                moment.balance.map_or(f64::NAN, |balance| balance.accounts.to_array()[number])
+            }
             Measure::Run(RunMeasure::Impacts) => impacts(ImpactCounts::of_run),
             Measure::Impacts(pair) => moment.impacts.map_or(f64::NAN, |impacts| impacts.of_pair(pair)),
             Measure::Body(Subject::One(number), BodyMeasure::Impacts) => {
                 moment.impacts.map_or(f64::NAN, |impacts| impacts.of_body(number))
+            }
+            Measure::Body(Subject::One(number), BodyMeasure::Potential) => self.potential(number, moment),
+            Measure::Body(Subject::One(number), measure) if measure.is_contact_force() => {
+                let at = moment.contacts.zip(find(moment.bodies, number));
+                at.map_or(f64::NAN, |(contacts, _)| of_contacts(number, contacts, measure))
             }
             Measure::Body(Subject::One(number), measure) => {
                 let at = find(moment.bodies, number);
@@ -227,6 +234,13 @@ impl Measures {
                 let body = |id: BodyId| find(moment.bodies, id.index()).copied();
                 let total_angle = moment.angles.get(number).copied().unwrap_or(f64::NAN);
                 measure.of(&JointState::of(self.joints[number], (*reaction, total_angle), body))
+            }
+            Measure::Force(force, None, ForceMeasure::Potential) => {
+                self.potential_of_force(force, moment).map_or(f64::NAN, |shares| shares.iter().sum())
+            }
+            Measure::Force(force, Some(Subject::One(body)), ForceMeasure::Potential) => {
+                let shares = self.potential_of_force(force, moment).zip(find(moment.bodies, body));
+                shares.map_or(f64::NAN, |(shares, _)| shares[body])
             }
             Measure::Force(force, None, _) => {
                 self.loads(force, moment).map_or(f64::NAN, |loads| total_power(&loads, moment.bodies))
@@ -300,12 +314,20 @@ impl Measures {
         value
     }
 
+    /// Returns a named force on a body, N, without the other forces. `None` if the body is absent, for a ghost, and if no measure and no arrow
+    /// shows the force.
+    pub(crate) fn force_on(&self, body: usize, force: usize, moment: &MomentState<'_>) -> Option<DVec3> {
+        moment.balance?;
+        let at = find(moment.bodies, body)?;
+        Some(self.loads(force, moment)?.force[at.id])
+    }
+
     /// Returns the loads of a named force on all bodies. `None` if the force is not shown.
     fn loads(&self, force: usize, moment: &MomentState<'_>) -> Option<Rc<Loads>> {
         if let Some(known) = moment.computed.loads.borrow().get(&force) {
             return Some(known.clone());
         }
-        let ShownForce(parts) = self.forces.get(&force)?;
+        let ShownForces(parts) = self.forces.get(&force)?;
         let world = moment.computed.world.get_or_init(|| self.world(moment.bodies));
         let zero = vec![DVec3::ZERO; self.bodies.len()];
         let mut loads = Loads { force: zero.clone(), torque: zero, ..Loads::default() };
@@ -314,6 +336,34 @@ impl Measures {
         let loads = Rc::new(loads);
         moment.computed.loads.borrow_mut().insert(force, loads.clone());
         Some(loads)
+    }
+
+    /// Returns the share of each body in the potential energy of a named force, J. `None` if the force is not shown.
+    fn potential_of_force(&self, force: usize, moment: &MomentState<'_>) -> Option<Rc<[f64]>> {
+        if let Some(known) = moment.computed.potentials.borrow().get(&force) {
+            return Some(known.clone());
+        }
+        let ShownForces(parts) = self.forces.get(&force)?;
+        let world = moment.computed.world.get_or_init(|| self.world(moment.bodies));
+        let mut shares = vec![0.0; self.bodies.len()];
+        let at = Moment { time: moment.time, state: world.state(), model: world.model() };
+        parts.iter().for_each(|part| part.share_potential(&at, &mut shares));
+        let shares: Rc<[f64]> = shares.into();
+        moment.computed.potentials.borrow_mut().insert(force, shares.clone());
+        Some(shares)
+    }
+
+    /// Returns the share of a body in the potential energy, J. NaN if the body is absent, and for a ghost, which stands alone.
+    fn potential(&self, body: usize, moment: &MomentState<'_>) -> f64 {
+        if moment.balance.is_none() || find(moment.bodies, body).is_none() {
+            return f64::NAN;
+        }
+        let shares = moment.computed.potential.get_or_init(|| {
+            let mut world = self.world(moment.bodies);
+            self.all_forces.0.iter().for_each(|force| world.add_shared_force(force.clone()));
+            world.model().potential_of_each(moment.time, world.state())
+        });
+        shares[body]
     }
 
     /// Returns a world in which the bodies have the poses and the velocities of a moment.
@@ -326,15 +376,33 @@ impl Measures {
                 world.limit(id, &Presence::during(&[]));
                 continue;
             };
-            world.add(RigidBody {
+            let id = world.add(RigidBody {
                 location: at.location,
                 orientation: at.orientation,
                 velocity: at.velocity,
                 angular_velocity: at.angular_velocity,
                 ..body.start
             });
+            if body.motion.is_some() {
+                world.follow(id, Arc::new(Held(*at)));
+            }
         }
         world
+    }
+}
+
+/// The motion of a body at a moment, for a world of this moment alone.
+#[derive(Debug)]
+struct Held(BodySnapshot);
+
+impl Motion for Held {
+    fn at(&self, _: f64) -> Kinematics {
+        let BodySnapshot { location, orientation, velocity, angular_velocity, .. } = self.0;
+        Kinematics { location, orientation, velocity, angular_velocity, acceleration: DVec3::ZERO }
+    }
+
+    fn angular_acceleration(&self, _: f64) -> DVec3 {
+        DVec3::ZERO
     }
 }
 
@@ -360,6 +428,8 @@ fn of_force(loads: &Loads, at: &BodySnapshot, measure: ForceMeasure) -> f64 {
         ForceMeasure::Component(axis) => loads.force[at.id][axis],
         ForceMeasure::Size => loads.force[at.id].length(),
         ForceMeasure::Power => power(loads, at),
+        // Loads have no potential.
+        ForceMeasure::Potential => f64::NAN,
     }
 }
 
@@ -379,14 +449,45 @@ fn of_body(body: &Body, at: &BodySnapshot, measure: BodyMeasure) -> f64 {
         BodyMeasure::Momentum => mass * at.velocity.length(),
         BodyMeasure::MomentumComponent(axis) => mass * at.velocity[axis],
         BodyMeasure::Power => at.force.dot(at.velocity),
-        // Impacts are counted per run, not in the state of a body.
-        BodyMeasure::Impacts => f64::NAN,
         BodyMeasure::Kinetic => {
-            let turned = at.orientation * body.start.principal_axes;
-            let spin = turned.conjugate() * at.angular_velocity;
+            let spin = angular_velocity_in_principal_axes(body, at);
             0.5 * (mass * at.velocity.length_squared() + body.start.inertia.dot(spin * spin))
         }
+        BodyMeasure::AngularMomentum => angular_momentum(body, at).length(),
+        BodyMeasure::AngularMomentumComponent(axis) => angular_momentum(body, at)[axis],
+        // These do not follow from the state of a body alone.
+        BodyMeasure::Impacts
+        | BodyMeasure::Potential
+        | BodyMeasure::NormalForce
+        | BodyMeasure::FrictionForce => f64::NAN,
     }
+}
+
+fn angular_velocity_in_principal_axes(body: &Body, at: &BodySnapshot) -> DVec3 {
+    (at.orientation * body.start.principal_axes).conjugate() * at.angular_velocity
+}
+
+/// The angular momentum of a body about the origin, x × m v + I ω, kg·m²/s.
+fn angular_momentum(body: &Body, at: &BodySnapshot) -> DVec3 {
+    let spin = body.start.inertia * angular_velocity_in_principal_axes(body, at);
+    let own = (at.orientation * body.start.principal_axes) * spin;
+    body.start.mass * at.location.cross(at.velocity) + own
+}
+
+/// The magnitude of the sum of the normal forces, or of the forces of friction, on a body, N.
+fn of_contacts(body: usize, contacts: &[ContactSnapshot], measure: BodyMeasure) -> f64 {
+    let sum: DVec3 = contacts
+        .iter()
+        .map(|contact| {
+            let force = if measure == BodyMeasure::NormalForce { contact.force } else { contact.friction };
+            match contact.bodies {
+                [first, _] if first == body => -force,
+                [_, second] if second == body => force,
+                _ => DVec3::ZERO,
+            }
+        })
+        .sum();
+    sum.length()
 }
 
 #[cfg(test)]

@@ -36,7 +36,7 @@ pub struct Span {
     pub arrows: [Reach; Quantity::COUNT],
 }
 
-/// An arrow of a joint, or of a weight or contact force on a body, at one moment.
+/// An arrow of a joint, or of a weight, contact force or named force on a body, at one moment.
 pub(super) struct JointArrow {
     pub(super) quantity: Quantity,
     /// The drawn length of one unit of the quantity, m. `None` if it is chosen after the run.

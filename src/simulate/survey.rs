@@ -5,6 +5,7 @@
 mod corrected;
 mod crossing;
 mod curves;
+mod force_arrows;
 mod ranges;
 mod spreads;
 mod stretched;
@@ -16,6 +17,7 @@ pub use crossing::Crossing;
 use crossing::{Falls, Watched, free, planes};
 use curves::Curves;
 pub use curves::{CurvePoint, LeftOut};
+use force_arrows::ForceArrows;
 use ranges::Ranges;
 pub use spreads::Spread;
 use spreads::Spreads;
@@ -147,6 +149,8 @@ pub struct Surveyor<'a> {
     /// The requested arrows of joints. Each entry has the joint's end at which the arrow begins, the quantity that it shows, and its scale
     /// if given.
     joint_arrows: Vec<(JointEnd, Quantity, Option<f64>)>,
+    /// The arrows of named forces. `None` without any.
+    force_arrows: Option<ForceArrows<'a>>,
     contacts: Option<ContactTotals>,
     laws: Vec<LawResidual>,
     gaps: Gaps,
@@ -186,6 +190,7 @@ impl<'a> Surveyor<'a> {
             corrected: None,
             requested: RequestedSizes::new(scene),
             joint_arrows: joint_arrows(scene),
+            force_arrows: ForceArrows::new(scene),
             contacts: scene.simulation.contacts.map(|_| ContactTotals::default()),
             laws: Vec::new(),
             gaps: Gaps::new(scene),
@@ -227,7 +232,9 @@ impl<'a> Surveyor<'a> {
             root: load.root,
             vector: load.vector,
         });
-        self.spans.see(scene, frame.time, frame.bodies.iter().filter(counts), joints.chain(loads));
+        let of_forces = self.force_arrows.iter().flat_map(|arrows| arrows.at(frame));
+        let arrows = joints.chain(loads).chain(of_forces);
+        self.spans.see(scene, frame.time, frame.bodies.iter().filter(counts), arrows);
         self.clouds.note(frame);
         if let Some(here) = self.clouds.bounds(scene) {
             self.spans.see_particles(scene, frame.time, here);

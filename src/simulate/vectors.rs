@@ -14,7 +14,11 @@ pub fn shown(quantity: Quantity, body: &Body, frame: &BodySnapshot) -> DVec3 {
         Quantity::Acceleration => frame.force / body.start.mass,
         Quantity::Force => frame.force,
         // Only joints have torque arrows, and the arrows of weights and contact forces are computed elsewhere.
-        Quantity::Torque | Quantity::Weight | Quantity::Normal | Quantity::Friction => DVec3::ZERO,
+        Quantity::Torque
+        | Quantity::Weight
+        | Quantity::Normal
+        | Quantity::Friction
+        | Quantity::NamedForce => DVec3::ZERO,
     }
 }
 

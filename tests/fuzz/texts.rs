@@ -23,7 +23,7 @@ use jabuka::simulate::Selection;
 use proptest::prelude::*;
 
 /// The public functions with a text argument that are tried here, as `file: name`.
-const TRIED: [&str; 47] = [
+const TRIED: [&str; 48] = [
     "catalog.rs: named",
     "diagnostic/code.rs: named",
     "diagnostic/mod.rs: at",
@@ -42,6 +42,7 @@ const TRIED: [&str; 47] = [
     "font.rs: width",
     "integrator/mod.rs: by_name",
     "lettering.rs: is_script",
+    "lettering.rs: plain",
     "lettering.rs: runs",
     "lettering.rs: set",
     "lettering.rs: spaces",
@@ -217,6 +218,7 @@ proptest! {
         match lettering::set(&text, false) {
             Ok(set) => {
                 prop_assert!(lettering::width(&set).is_finite());
+                prop_assert!(lettering::plain(&set).len() <= set.len());
                 prop_assert!(lettering::runs(&set).all(|run| !run.letters.is_empty()));
                 prop_assert!(lettering::spaces(&set).all(|at| set.is_char_boundary(at)));
             }

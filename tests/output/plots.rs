@@ -37,7 +37,11 @@ fn a_plot_that_is_unknown_or_has_another_extension_is_wrong_usage() {
     for (plot, file, expected) in [
         ("enrgy", "e.svg", "the scene has no plot `enrgy`: did you mean `energy`?"),
         ("speed", "e.png", "the scene has no plot `speed`: it has `energy`, `now`"),
-        ("energy", "e.csv", "`--plot` makes a drawing, `.svg`, or an image, `.png`, or a page, `.pdf`"),
+        (
+            "energy",
+            "e.glb",
+            "`--plot` makes a drawing, `.svg`, or an image, `.png`, or a page, `.pdf`, or a table, `.csv`",
+        ),
     ] {
         let words = ["export", "scene.toml", "--plot", plot, "-o", file];
         let output = jabuka().current_dir(folder.path()).args(words).output().unwrap();

@@ -260,3 +260,20 @@ fn plots_have_the_units_that_are_asked_for_at_their_axes() {
     }
     assert!(mixed.iter().any(|said| said == "gas[0].speed, km/h"), "{mixed:?}");
 }
+
+/// An angle between coinciding legs has an arc without a length, which POV-Ray would refuse. The arc is left out.
+#[test]
+fn an_angle_of_zero_has_no_arc() {
+    let text = "simulation.duration = 0
+        [body.ball]\nshape.sphere.radius = 0.1
+        [angle.phi]\nat = [0, 0, 0]\nfrom = [0, 1, 0]\nto = [0, 2, 0]\ntext = 'zero'\n";
+    let scene = Scene::parse(text).unwrap();
+    let run = Run::new(&scene).unwrap();
+    let script = run.script(&run.frames().next().unwrap().unwrap()).unwrap();
+    let cylinders: Vec<&str> = script.lines().filter(|line| line.trim().starts_with("cylinder {")).collect();
+    for line in &cylinders {
+        let points: Vec<&str> = line.split(['<', '>']).collect();
+        assert_ne!(points[1], points[3], "{line}");
+    }
+    assert_eq!(cylinders.len(), 2, "the two legs: {cylinders:?}");
+}

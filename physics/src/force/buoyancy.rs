@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::{BodyId, Shape};
-use super::{Force, Loads, Moment};
+use super::{Force, Loads, Moment, share};
 
 /// Buoyancy of some bodies in a liquid at rest: F = −ρ V g acts at the centre of the submerged part of a body, whose volume is V.
 ///
@@ -66,6 +66,15 @@ impl Force for Buoyancy {
             }
         });
         self.density * self.gravity.length() * sum
+    }
+
+    fn share_potential(&self, moment: &Moment, shares: &mut [f64]) {
+        let Some(up) = self.up() else { return };
+        self.each(moment, |i, volume, arm| {
+            let depth = self.level - moment.state.location[i].dot(up);
+            let lifted = depth * volume - arm.dot(up);
+            share(self.density * self.gravity.length() * lifted, [i], moment, shares);
+        });
     }
 
     fn is_local(&self) -> bool {

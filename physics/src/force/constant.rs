@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::BodyId;
-use super::{Force, Loads, Moment};
+use super::{Force, Loads, Moment, share};
 
 /// A constant force at the centre of mass, and a constant torque, on each of some bodies.
 ///
@@ -50,6 +50,12 @@ impl Force for ConstantForce {
             }
         }
         potential
+    }
+
+    fn share_potential(&self, moment: &Moment, shares: &mut [f64]) {
+        for i in self.bodies.iter().map(|body| body.index()) {
+            share(-self.force.dot(moment.state.location[i]), [i], moment, shares);
+        }
     }
 }
 

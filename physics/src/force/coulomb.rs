@@ -54,6 +54,10 @@ impl Force for Coulomb {
         self.of(moment).potential(moment)
     }
 
+    fn share_potential(&self, moment: &Moment, shares: &mut [f64]) {
+        self.of(moment).share_potential(moment, shares);
+    }
+
     fn pairs(&self) -> u64 {
         pairs::count(&self.bodies, self.against.as_deref())
     }

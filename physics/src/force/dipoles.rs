@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::super::{BodyId, BodySnapshot, find};
 use super::pairs;
-use super::{Force, Loads, Moment};
+use super::{Force, Loads, Moment, share};
 
 /// Magnetic dipoles that rotate with their bodies, in the fields of each other and in a uniform field.
 ///
@@ -86,6 +86,13 @@ impl Dipoles {
             }
         }
     }
+
+    /// Returns the energy of two dipoles in each other's field, J.
+    fn energy(&self, one: &Dipole, other: &Dipole) -> f64 {
+        let d = one.at - other.at;
+        let r = d.length();
+        -self.constant * one.moment.dot(field(other.moment, d / r, r))
+    }
 }
 
 /// Returns the field of a magnetic dipole at the position d = r n relative to the dipole, divided by k.
@@ -120,13 +127,19 @@ impl Force for Dipoles {
         let (dipoles, first) = self.present(moment);
         let movable = dipoles.iter().filter(|dipole| dipole.movable);
         let mut sum: f64 = movable.map(|dipole| -dipole.moment.dot(self.field)).sum();
-        self.each_pair(&dipoles, first, |one, other| {
-            let d = one.at - other.at;
-            let r = d.length();
-            sum -= self.constant * one.moment.dot(field(other.moment, d / r, r));
-        });
+        self.each_pair(&dipoles, first, |one, other| sum += self.energy(one, other));
         moment.model.pair_counter().add(usize::try_from(self.pairs()).unwrap_or(0));
         sum
+    }
+
+    fn share_potential(&self, moment: &Moment, shares: &mut [f64]) {
+        let (dipoles, first) = self.present(moment);
+        for dipole in &dipoles {
+            share(-dipole.moment.dot(self.field), [dipole.body], moment, shares);
+        }
+        self.each_pair(&dipoles, first, |one, other| {
+            share(self.energy(one, other), [one.body, other.body], moment, shares);
+        });
     }
 
     fn depends_on_motion(&self) -> bool {

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use glam::DVec3;
 
 use super::super::{BodyId, WorkAccount};
-use super::{Force, Loads, Moment};
+use super::{Force, Loads, Moment, share};
 
 /// The largest number of bodies for which a [`ForceLaw`] computes forces in one call.
 pub const FORCE_BLOCK: usize = 64;
@@ -126,6 +126,18 @@ impl Force for FormulaForce {
             sum += each.map(|(_, potential)| *potential).sum::<f64>();
         }
         sum
+    }
+
+    fn share_potential(&self, moment: &Moment, shares: &mut [f64]) {
+        if !self.law.has_potential() {
+            return;
+        }
+        let mut out = [0.0; FORCE_BLOCK];
+        for bodies in moment.model.present(&self.bodies).chunks(FORCE_BLOCK) {
+            let out = &mut out[..bodies.len()];
+            self.law.potential(bodies, moment, out);
+            bodies.iter().zip(out).for_each(|(body, energy)| share(*energy, [body.index()], moment, shares));
+        }
     }
 
     fn work_account(&self) -> Option<WorkAccount> {

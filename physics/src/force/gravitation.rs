@@ -83,6 +83,13 @@ impl Force for Gravitation {
         }
     }
 
+    fn share_potential(&self, moment: &Moment, shares: &mut [f64]) {
+        match self.opening_angle {
+            Some(angle) => self.by_tree(angle, moment).share_potential(moment, shares),
+            None => self.of(moment).share_potential(moment, shares),
+        }
+    }
+
     fn pairs(&self) -> u64 {
         let Some(angle) = self.opening_angle else {
             return pairs::count(&self.bodies, self.against.as_deref());

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::{Force, Loads, Moment};
+use super::{Force, Loads, Moment, share};
 
 /// Uniform gravity: a force F = m g on every body, with the potential −m g·x.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,6 +46,12 @@ impl Force for UniformGravity {
             }
         }
         potential
+    }
+
+    fn share_potential(&self, moment: &Moment, shares: &mut [f64]) {
+        for (i, location) in moment.state.location.iter().enumerate() {
+            share(-moment.model.mass()[i] * self.acceleration.dot(*location), [i], moment, shares);
+        }
     }
 }
 

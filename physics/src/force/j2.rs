@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::BodyId;
-use super::{Force, Loads, Moment};
+use super::{Force, Loads, Moment, share};
 
 /// The gravity of the equatorial bulge of an oblate planet, acting on some bodies. Its potential is
 ///
@@ -62,16 +62,25 @@ impl Force for J2 {
 
     fn potential(&self, moment: &Moment) -> f64 {
         let mut sum = 0.0;
-        self.each(moment, |_, d, axis, strength| {
-            let (square, height) = (d.length_squared(), d.dot(axis));
-            sum += strength * (height * height / square - 1.0 / 3.0) / (square * square.sqrt());
-        });
+        self.each(moment, |_, d, axis, strength| sum += energy(d, axis, strength));
         sum
+    }
+
+    fn share_potential(&self, moment: &Moment, shares: &mut [f64]) {
+        self.each(moment, |i, d, axis, strength| {
+            share(energy(d, axis, strength), [i, self.planet.index()], moment, shares);
+        });
     }
 
     fn depends_on_motion(&self) -> bool {
         false
     }
+}
+
+/// Returns the energy of a body at `d` (m) from the planet, J, for the strength that [`J2::each`] gives.
+fn energy(d: DVec3, axis: DVec3, strength: f64) -> f64 {
+    let (square, height) = (d.length_squared(), d.dot(axis));
+    strength * (height * height / square - 1.0 / 3.0) / (square * square.sqrt())
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::super::BodyId;
 use super::cells::Cells;
-use super::{Force, Loads, Moment};
+use super::{Force, Loads, Moment, share};
 
 /// The Lennard-Jones force between bodies. Any two bodies that are nearer than the cutoff r_c have the potential U(r) = u(r) − u(r_c) with
 /// u = 4ε ((σ/r)¹² − (σ/r)⁶). They repel each other below 2^(1/6) σ, and attract each other beyond that distance.
@@ -80,6 +80,15 @@ impl LennardJones {
     fn shifts(&self) -> (f64, f64) {
         let (potential, push) = self.pure(self.cutoff * self.cutoff);
         (potential, if self.smooth { push * self.cutoff } else { 0.0 })
+    }
+
+    /// Returns the energy of a pair of bodies as a function of the square of their distance (m²), J.
+    fn energy(&self) -> impl Fn(f64) -> f64 + '_ {
+        let (shift, less) = self.shifts();
+        move |square| {
+            let over = if less == 0.0 { 0.0 } else { less * (square.sqrt() - self.cutoff) };
+            self.pure(square).0 - shift + over
+        }
     }
 
     /// Takes working memory from the pool, sorts the present bodies in it, and calls `work` with it. Returns the result of `work`.
@@ -180,17 +189,28 @@ impl Force for LennardJones {
     }
 
     fn potential(&self, moment: &Moment) -> f64 {
-        let (shift, less) = self.shifts();
         self.with_working_memory(moment, |WorkingMemory { sorted, .. }| {
+            let energy = self.energy();
             let mut sum = 0.0;
             let add = |sum: &mut f64, _: usize, _: usize, _: [f64; 3], square: f64| {
-                let over = if less == 0.0 { 0.0 } else { less * (square.sqrt() - self.cutoff) };
-                *sum += self.pure(square).0 - shift + over;
+                *sum += energy(square);
                 [0.0; 3]
             };
             self.each_pair(sorted, &mut sum, add, |_, _, _| {});
             sum
         })
+    }
+
+    fn share_potential(&self, moment: &Moment, shares: &mut [f64]) {
+        self.with_working_memory(moment, |WorkingMemory { sorted, .. }| {
+            let body = |place: usize| sorted.bodies[sorted.cells.number[place] as usize].index();
+            let (energy, mut shares) = (self.energy(), shares);
+            let add = |shares: &mut &mut [f64], one: usize, other: usize, _: [f64; 3], square: f64| {
+                share(energy(square), [body(one), body(other)], moment, shares);
+                [0.0; 3]
+            };
+            self.each_pair(sorted, &mut shares, add, |_, _, _| {});
+        });
     }
 
     fn depends_on_motion(&self) -> bool {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::BodyId;
-use super::{Force, Loads, Moment};
+use super::{Force, Loads, Moment, share};
 
 /// The Lorentz force F = q (E + v × B) on each of some charged bodies, in fields that are uniform and constant.
 ///
@@ -36,6 +36,13 @@ impl Force for Lorentz {
         let model = moment.model;
         let movable = self.bodies.iter().map(|body| body.index()).filter(|&i| model.movable()[i]);
         movable.map(|i| -model.charge()[i] * self.electric.dot(moment.state.location[i])).sum()
+    }
+
+    fn share_potential(&self, moment: &Moment, shares: &mut [f64]) {
+        for i in self.bodies.iter().map(|body| body.index()) {
+            let energy = -moment.model.charge()[i] * self.electric.dot(moment.state.location[i]);
+            share(energy, [i], moment, shares);
+        }
     }
 }
 

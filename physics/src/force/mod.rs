@@ -74,6 +74,11 @@ pub trait Force: Send + Sync {
     /// Constant contributions of fixed bodies are left out.
     fn potential(&self, moment: &Moment) -> f64;
 
+    /// Adds the share of each body in the [potential energy](Self::potential) to `shares`, J. A body has half of an energy that it has
+    /// together with another body, and all of it if no force moves the other body: if that one is fixed, or has a given motion. Fixed
+    /// bodies have no share. The shares add up to the potential energy. The default is for a force without a potential.
+    fn share_potential(&self, _moment: &Moment, _shares: &mut [f64]) {}
+
     /// Returns the account for the work of the force's part without a potential; `None` if there is no such part.
     fn work_account(&self) -> Option<WorkAccount> {
         None
@@ -124,6 +129,18 @@ pub trait Force: Send + Sync {
     }
 }
 
+/// Adds an energy (J) to the `shares` of the bodies that have it together, in equal parts. A body that no force moves gets a part only if
+/// forces move none of them. Fixed bodies get no part.
+fn share<const N: usize>(energy: f64, bodies: [usize; N], moment: &Moment, shares: &mut [f64]) {
+    let model = moment.model;
+    let is_one_free = bodies.iter().any(|body| model.can_move(*body));
+    let gets_a_part = |body: usize| if is_one_free { model.can_move(body) } else { model.movable()[body] };
+    let their = || bodies.iter().copied().filter(|body| gets_a_part(*body));
+    #[allow(clippy::cast_precision_loss, reason = "there are one or two bodies")]
+    let part = energy / their().count() as f64;
+    their().for_each(|body| shares[body] += part);
+}
+
 #[cfg(test)]
 mod testing {
     use glam::DVec3;
@@ -167,10 +184,16 @@ mod testing {
         loads
     }
 
-    /// Checks F = −∂U/∂x on every body, by central differences. With h = 1e-5, the differences are wrong by h² U‴/6, about 1e-10 for these
+    /// Checks F = −∂U/∂x on every body, by central differences, and that the shares of the bodies add up to U. With h = 1e-5, the differences are wrong by h² U‴/6, about 1e-10 for these
     /// forces, and by the rounding error of U over h, about 1e-16 · 100 / 1e-5 = 1e-9.
     pub(super) fn assert_minus_gradient(force: &dyn Force, model: &Model, state: &State) {
         const H: f64 = 1e-5;
+        let moment = Moment { time: 0.0, state, model };
+        let mut shares = vec![0.0; state.len()];
+        force.share_potential(&moment, &mut shares);
+        let (sum, potential) = (shares.iter().sum::<f64>(), force.potential(&moment));
+        let size: f64 = shares.iter().map(|share| share.abs()).sum();
+        assert!((sum - potential).abs() <= 1e-13 * size, "the shares {shares:?} are not {potential}");
         let given = loads(force, model, state).force;
         for (i, given) in given.iter().enumerate() {
             for axis in 0..3 {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::BodyId;
-use super::{Loads, Moment};
+use super::{Loads, Moment, share};
 
 /// The number of bodies in a tile. Two tiles and their sums fit into the first-level cache, and are kept on the stack.
 const TILE_SIZE: usize = 128;
@@ -101,6 +101,27 @@ impl Pairs<'_> {
             };
         });
         self.constant * sum
+    }
+
+    /// Adds the share of each body in the potential energy to `shares`, J.
+    pub(super) fn share_potential(&self, moment: &Moment, shares: &mut [f64]) {
+        let softening = self.softening * self.softening;
+        let mut add = |one: usize, other: usize| {
+            let square =
+                moment.state.location[one].distance_squared(moment.state.location[other]) + softening;
+            let energy = self.constant * self.strength[one] * self.strength[other] / square.sqrt();
+            share(energy, [one, other], moment, shares);
+        };
+        let bodies = moment.model.present(self.bodies);
+        let index = |body: &BodyId| body.index();
+        for (number, one) in bodies.iter().map(index).enumerate() {
+            match self.against {
+                None => bodies[number + 1..].iter().map(index).for_each(|other| add(one, other)),
+                Some(against) => {
+                    moment.model.present(against).iter().map(index).for_each(|other| add(one, other));
+                }
+            }
+        }
     }
 
     /// With one group, calls `see` for every tile alone, and then for that tile with each later tile. With two groups, calls `see` for

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::{Anchor, BodyId, WorkAccount};
-use super::{Force, Loads, Moment};
+use super::{Force, Loads, Moment, share};
 
 /// One end of a spring at one moment, in world axes.
 struct End {
@@ -134,6 +134,15 @@ impl Force for Spring {
         let [from, to] = self.ends(moment);
         let stretch = (to.location - from.location).length() - self.rest_length;
         0.5 * self.stiffness * stretch * stretch
+    }
+
+    fn share_potential(&self, moment: &Moment, shares: &mut [f64]) {
+        let energy = self.potential(moment);
+        match self.between.map(|end| end.body().map(BodyId::index)) {
+            [Some(one), Some(other)] => share(energy, [one, other], moment, shares),
+            [Some(one), None] | [None, Some(one)] => share(energy, [one], moment, shares),
+            [None, None] => {}
+        }
     }
 }
 

@@ -90,4 +90,15 @@ impl Model {
         let moment = Moment { time, state, model: self };
         self.forces.iter().fold(potential, |sum, force| sum + force.potential(&moment))
     }
+
+    /// Returns the share of each body in the [potential energy](Self::potential), J; see [`Force::share_potential`](crate::Force::share_potential).
+    #[must_use]
+    pub fn potential_of_each(&self, time: f64, state: &State) -> Vec<f64> {
+        let moment = Moment { time, state, model: self };
+        let constant =
+            |i: usize| if self.movable[i] { -self.force.get(i).dot(state.location[i]) } else { 0.0 };
+        let mut shares: Vec<f64> = (0..self.len()).map(constant).collect();
+        self.forces.iter().for_each(|force| force.share_potential(&moment, &mut shares));
+        shares
+    }
 }

@@ -130,8 +130,9 @@ fn area(
     out.push_str(&format!(", {}, {color})\n", u8::from(is_liquid)));
 }
 
-/// Appends thin straight lines, which shine and cast no shadow.
+/// Appends thin straight lines, which shine and cast no shadow. Lines without a length are left out: POV-Ray refuses them.
 fn thin(out: &mut String, lines: &[Line], color: &str, name: &str, style: Style) {
+    let lines: Vec<&Line> = lines.iter().filter(|line| style.can_tell(line.from, line.to)).collect();
     if lines.is_empty() {
         return;
     }

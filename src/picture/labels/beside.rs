@@ -1,12 +1,22 @@
 //! Places labels beside bodies, where there is room.
 
-use super::super::occupancy::{Occupancy, Rectangle};
+use super::super::occupancy::Rectangle;
 use super::super::screen::{Screen, ScreenPoint};
+use super::super::surroundings::Surroundings;
 use super::super::text::{LINE, MARGIN, Text, Vertical, below};
 use super::{Labels, Planned};
 use crate::physics::BodySnapshot;
 use crate::scene::Side;
 use crate::simulate::MomentState;
+
+/// The largest distance of a label from its body, in lines.
+const MAX_LINES_AWAY: u8 = 5;
+/// The costs of the requested side, the opposite one and the two others, in heights of a line.
+const COSTS_OF_SIDES: [f64; 4] = [0.0, 0.9, 1.3, 1.3];
+/// The cost of a place beside a corner of the body's area, in heights of a line.
+const COST_OF_CORNER: f64 = 1.5;
+/// The cost of a line of distance, in heights of a line. A text rather goes farther away than to another side.
+const COST_OF_DISTANCE: f64 = 0.6;
 
 impl Labels {
     /// The position of a body or ghost in the picture, and the rectangle that it covers. `None` if it is behind the camera. The rectangle
@@ -26,14 +36,14 @@ impl Labels {
     }
 
     /// Places a label beside a body or ghost. `None` if the body is outside the picture. The label stays inside the picture. It moves to
-    /// another side or farther away if it would cover an arrow or a text, and to a near free side if it would cover another body.
+    /// another side or a little farther away if it would cover a text, an arrow or another body.
     pub(super) fn beside<'a>(
         &'a self,
         planned: &'a Planned,
         (at, side): (&BodySnapshot, Side),
         moment: &MomentState<'_>,
         screen: &Screen,
-        (room, crowd): (&mut Occupancy, &Occupancy),
+        surroundings: &mut Surroundings,
     ) -> Option<Text<'a>> {
         let (point, area) = self.seen(at, screen)?;
         if area.right < -1.0 || area.left > 1.0 || area.top < -self.aspect || area.bottom > self.aspect {
@@ -57,27 +67,19 @@ impl Labels {
             Side::Above | Side::Below => [side, opposite(side), Side::Right, Side::Left],
             Side::Left | Side::Right => [side, opposite(side), Side::Above, Side::Below],
         };
-        // First try the requested side and the opposite side, at most one line away from the body. Then try the other two sides.
-        let near = [0, 1].into_iter().flat_map(|lines| [0, 1].map(|side| (others[side], lines)));
-        let far = (0..=8).flat_map(|lines| others.map(|side| (side, lines)));
-        let candidates =
-            near.clone().chain(far.clone()).map(|(side, lines)| candidate(side, f64::from(lines)));
-        let aside = near.chain([(others[2], 0), (others[3], 0)]);
-        let aside = aside.map(|(side, lines)| candidate(side, f64::from(lines)));
+        let sides = (0..=MAX_LINES_AWAY).flat_map(|lines| {
+            let lines = f64::from(lines);
+            [0, 1, 2, 3].map(|number| {
+                (candidate(others[number], lines), COST_OF_DISTANCE * lines + COSTS_OF_SIDES[number])
+            })
+        });
         let corners = [Side::Above, Side::Below].into_iter().flat_map(|side| {
             let y = Vertical::Middle(at_side(side, 0.0).1);
-            [(area.right, 0.0), (area.left, 1.0)]
-                .map(|(x, align)| self.kept_inside(planned.text(said.as_str().into(), (x, y), align)))
+            [(area.right, 0.0), (area.left, 1.0)].map(|(x, align)| {
+                (self.kept_inside(planned.text(said.as_str().into(), (x, y), align)), COST_OF_CORNER)
+            })
         });
-        let farther = far.filter(|(_, lines)| *lines <= 3);
-        let farther = farther.map(|(side, lines)| candidate(side, f64::from(lines)));
-        let free = aside
-            .chain(corners)
-            .chain(farther)
-            .find(|text| room.has_room_for(text) && crowd.has_room_for(text))
-            .or_else(|| candidates.into_iter().find(|text| room.has_room_for(text)));
-        let text = free.unwrap_or_else(|| candidate(side, 0.0));
-        room.take_text(&text);
+        let text = surroundings.settle(sides.chain(corners))?;
         let Text { x, y, align, .. } = text;
         Some(planned.text(said.into(), (x, y), align))
     }

@@ -14,6 +14,7 @@ use self::lines::Block;
 use super::occupancy::{Occupancy, Rectangle};
 use super::plots;
 use super::screen::Screen;
+use super::surroundings::Surroundings;
 use super::text::{Text, Vertical, least_height};
 use crate::scene::{Color, Corner, DecimalSign, Label, LabelPlace, Output, Scene};
 use crate::simulate::{Frame, Ghost, Measures, MomentState};
@@ -108,17 +109,15 @@ impl Labels {
         layout.places.iter().map(text).collect()
     }
 
-    /// Places the labels beside bodies in a frame, in free parts of `room`, and marks the places of these labels as taken. Returns each
-    /// label with its index in the scene.
+    /// Places the labels beside bodies in a frame, and marks their places as taken. Returns each label with its index in the scene.
     pub(super) fn beside_bodies(
         &self,
         frame: &Frame,
         screen: &Screen,
-        room: &mut Occupancy,
+        surroundings: &mut Surroundings,
     ) -> Vec<(usize, Text<'_>)> {
         let now = MomentState::now(frame);
         let ghosts_of = self.ghosts_by_body(frame);
-        let crowd = self.crowd(frame, screen);
         let mut texts = Vec::new();
         for (number, planned) in self.labels.iter().enumerate() {
             let LabelPlace::Body { body, side, ghosts } = planned.block.label.place else { continue };
@@ -126,12 +125,12 @@ impl Labels {
                 continue;
             }
             let here = frame.body(body);
-            let text = here.and_then(|here| self.beside(planned, (here, side), &now, screen, (room, &crowd)));
+            let text = here.and_then(|here| self.beside(planned, (here, side), &now, screen, surroundings));
             texts.extend(text.map(|text| (number, text)));
             let its = ghosts_of.get(&body).filter(|_| ghosts);
             for ghost in its.into_iter().flatten() {
                 let then = MomentState::then(ghost);
-                let text = self.beside(planned, (&ghost.body, side), &then, screen, (room, &crowd));
+                let text = self.beside(planned, (&ghost.body, side), &then, screen, surroundings);
                 texts.extend(text.map(|text| (number, text)));
             }
         }

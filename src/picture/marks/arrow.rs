@@ -6,6 +6,7 @@ use super::{HELPING_LINE_RADIUS, Note, Says, Sketch};
 use crate::picture::arrows::{Arrow, Arrows};
 use crate::picture::thing::{Form, Line, Thing};
 use crate::scene::{ArrowMark, ArrowOwner, Piece, Quantity, Scene};
+use crate::simulate::{Frame, direction};
 
 /// The radius of a component's shaft, relative to that of its arrow.
 const COMPONENT_RADIUS: f64 = 0.7;
@@ -31,6 +32,7 @@ impl ArrowMarks {
             let owner = match mark.owner {
                 ArrowOwner::Body(body) => &*scene.bodies[body].name,
                 ArrowOwner::Joint(joint) => &scene.joints[joint].name,
+                ArrowOwner::Force(force) => &scene.forces[force].name,
             };
             let name = format!("{owner}, {}", mark.quantity.name());
             ((mark.owner, mark.quantity), Named { name, mark: mark.clone() })
@@ -42,19 +44,25 @@ impl ArrowMarks {
         self.marks.is_empty()
     }
 
-    /// Draws the texts and components of arrows. `stroke` is the width of a clearly visible line, m.
-    pub(in crate::picture) fn sketch(&self, arrows: &[Arrow], of: &Arrows, stroke: f64) -> Sketch<'_> {
+    /// Draws the texts and components of the arrows of a frame. `stroke` is the width of a clearly visible line, m.
+    pub(in crate::picture) fn sketch(
+        &self,
+        arrows: &[Arrow],
+        of: &Arrows,
+        frame: &Frame,
+        stroke: f64,
+    ) -> Sketch<'_> {
         let mut sketch = Sketch::default();
         for arrow in arrows {
             let Some(named) = self.marks.get(&(arrow.owner, arrow.quantity)) else { continue };
-            named.draw(arrow, of, stroke, &mut sketch);
+            named.draw(arrow, of, frame, stroke, &mut sketch);
         }
         sketch
     }
 }
 
 impl Named {
-    fn draw<'a>(&'a self, arrow: &Arrow, of: &Arrows, stroke: f64, sketch: &mut Sketch<'a>) {
+    fn draw<'a>(&'a self, arrow: &Arrow, of: &Arrows, frame: &Frame, stroke: f64, sketch: &mut Sketch<'a>) {
         let mut note = |arrow: &Arrow, text: &'a [Piece]| {
             let away = (arrow.to - arrow.from).normalize_or_zero();
             let Arrow { to: at, color, .. } = *arrow;
@@ -65,7 +73,12 @@ impl Named {
         }
         let Some(components) = &self.mark.components else { return };
         let whole = arrow.to - arrow.from;
-        let along = components.along * whole.dot(components.along);
+        let bodies = of.measures().bodies();
+        // An arrow may begin at the surface of its body, and in front of it.
+        let body = arrow.body.filter(|_| !matches!(arrow.owner, ArrowOwner::Joint(_)));
+        let vertex = body.and_then(|body| frame.body(body)).map_or(arrow.from, |body| body.location);
+        let Some(along) = direction(components.along, vertex, bodies, &frame.bodies) else { return };
+        let along = along * whole.dot(along);
         let mut helping = Vec::new();
         for (number, way) in [along, whole - along].into_iter().enumerate() {
             if way.length() <= MIN_COMPONENT * whole.length() {

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use crate::picture::labels::Labels;
-use crate::picture::occupancy::Occupancy;
 use crate::picture::screen::Screen;
+use crate::picture::surroundings::Surroundings;
 use crate::picture::text::{Text, Vertical, width};
 use crate::scene::{Color, Piece};
 use crate::simulate::MomentState;
@@ -13,9 +13,10 @@ use crate::simulate::MomentState;
 const GAP: f64 = 0.3;
 /// The directions in which a text is tried, relative to the wanted one, degrees.
 const TURNS: [f64; 8] = [0.0, 35.0, -35.0, 70.0, -70.0, 110.0, -110.0, 180.0];
-/// The additional distances at which a text is tried, in heights of a line. A text goes far only if nothing near is free.
-const NEAR: [f64; 3] = [0.0, 0.8, 1.6];
-const FAR: [f64; 3] = [2.5, 3.5, 5.0];
+/// The additional distances at which a text is tried, in heights of a line.
+const DISTANCES: [f64; 5] = [0.0, 0.8, 1.6, 2.5, 3.5];
+/// The cost of turning a text away from the wanted direction to the opposite one, in heights of a line.
+const COST_OF_HALF_TURN: f64 = 3.0;
 
 /// A text at a point of the world.
 pub(in crate::picture) struct Note<'a> {
@@ -37,19 +38,18 @@ pub(in crate::picture) enum Says<'a> {
     Words(String),
 }
 
-/// Places notes in the picture, and marks their places as taken. `crowd` holds the bodies, which a text covers only if it has no other
-/// place. A note outside of the picture is left out.
+/// Places notes in the picture, and marks their places as taken. A note outside of the picture is left out.
 pub(in crate::picture) fn place<'a>(
     notes: Vec<Note<'a>>,
     labels: &Labels,
     moment: &MomentState<'_>,
     screen: &Screen,
-    (room, crowd): (&mut Occupancy, &Occupancy),
+    surroundings: &mut Surroundings,
 ) -> Vec<Text<'a>> {
     let mut texts = Vec::new();
     for note in notes {
         let Some(point) = screen.project(note.at) else { continue };
-        if point.x.abs() > 1.0 || point.y.abs() > room.aspect() {
+        if point.x.abs() > 1.0 || point.y.abs() > labels.aspect() {
             continue;
         }
         let says = match note.says {
@@ -84,15 +84,10 @@ pub(in crate::picture) fn place<'a>(
                 anchor: Some(note.at),
             })
         };
-        let free = |distances: [f64; 3]| {
-            let tried =
-                || distances.into_iter().flat_map(|farther| TURNS.map(|turn| candidate(turn, farther)));
-            let beside_bodies = tried().find(|text| room.has_room_for(text) && crowd.has_room_for(text));
-            beside_bodies.or_else(|| tried().find(|text| room.has_room_for(text)))
-        };
-        let text = free(NEAR).or_else(|| free(FAR)).unwrap_or_else(|| candidate(0.0, 0.0));
-        room.take_text(&text);
-        texts.push(text);
+        let places = DISTANCES.into_iter().flat_map(|farther| {
+            TURNS.map(|turn| (candidate(turn, farther), farther + turn.abs() / 180.0 * COST_OF_HALF_TURN))
+        });
+        texts.extend(surroundings.settle(places));
     }
     texts
 }

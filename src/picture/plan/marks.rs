@@ -17,7 +17,9 @@ impl Plan {
         let mut arrows = arrows.into_iter().peekable();
         let mut marks = Vec::new();
         for (its, axes) in self.arrows.axes(frame) {
-            let is_before = |arrow: &Arrow| matches!(arrow.owner, ArrowOwner::Body(body) if body <= its);
+            let is_before = |arrow: &Arrow| {
+                !matches!(arrow.owner, ArrowOwner::Joint(_)) && arrow.body.is_some_and(|body| body <= its)
+            };
             while let Some(before) = arrows.next_if(is_before) {
                 marks.push(self.arrows.thing(&before));
             }
@@ -67,7 +69,7 @@ impl Plan {
 
     /// The texts and components of the arrows of a frame.
     pub(super) fn sketch_of_arrows(&self, frame: &Frame, arrows: &[Arrow]) -> Sketch<'_> {
-        self.arrow_marks.sketch(arrows, &self.arrows, self.sizes(frame).stroke)
+        self.arrow_marks.sketch(arrows, &self.arrows, frame, self.sizes(frame).stroke)
     }
 
     /// The arrows of a frame, moved in front of what would hide them.

@@ -120,7 +120,8 @@ impl Plan {
         };
         let placed = eye.placed();
         let early = eye.early(0.0).width_of_view(whole);
-        let arrows = Arrows::new(scene, longest);
+        let measures = Arc::new(Measures::new(scene));
+        let arrows = Arrows::new(scene, longest, measures.clone());
         let width = stroke(early, scene.output);
         let sizes = Sizes {
             view: early,
@@ -136,7 +137,6 @@ impl Plan {
         let links = Links::new(scene, survey);
         let narrowest = narrowest_view(scene, &eye, whole);
         let bar = scene.scale_bar.map(|bar| ScaleBars::new(scene, bar, &scenery, ink));
-        let measures = Arc::new(Measures::new(scene));
         let plots = Plots::new(scene, survey, Arc::clone(&measures));
         let bar_at_start = bar.as_ref().and_then(|bar| bar.extent(&placed.screen()));
         Plan {

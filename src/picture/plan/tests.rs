@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::*;
 use crate::lettering;
+use crate::physics::BodySnapshot;
 use crate::picture::{Form, PlotBar};
 use crate::scene::ArrowOwner;
 use crate::simulate::{Frames, survey};
@@ -342,4 +343,93 @@ fn names_stand_at_the_ends_of_curves() {
     let plot = plan(&format!("y = 't'\nnames = '{long}'\nwidth = 0.2"));
     let above = plot.texts.iter().find(|text| text.says.starts_with("a name")).unwrap();
     assert!(above.x - plot.left < 0.3 * plot.size[0], "{above:?}");
+}
+
+/// The arrow of a force shows this force alone: that of drag is −c v, whatever else acts on the ball.
+#[test]
+fn the_arrow_of_a_force_shows_this_force_alone() {
+    let keys = "mass = 2\narrows.force.scale = 0.1
+        [force.air.drag]\nlinear = 0.5\narrow = { scale = 0.1, label = \"R = ${force.air.size:.3}\" }
+        [force.pull.spring]\nbetween = [\"ball\", [0, 9, 0]]\nstiffness = 3";
+    let (plan, frame) = plan(keys);
+    let ball = frame.bodies[0];
+    let arrows = plan.arrows(&frame);
+    let [_, air] = arrows[..] else { panic!("two are asked for: {arrows:?}") };
+    assert_eq!((air.owner, air.body, air.quantity), (ArrowOwner::Force(0), Some(0), Quantity::NamedForce));
+    let drag = -0.5 * ball.velocity;
+    assert!((air.to - air.from).abs_diff_eq(0.1 * drag, 1e-12), "{air:?}");
+    assert!(plan.marks(&frame).iter().any(|thing| thing.name == "air, force"));
+    let texts = plan.texts(&frame);
+    assert_eq!(texts[0].says, format!("R = {:.3}", drag.length()), "{texts:?}");
+    let ghost_text = plan.ghosts(&frame).count();
+    assert_eq!(ghost_text, 0);
+}
+
+/// The components of a force along and across the velocity of its body, and along the way to a point.
+#[test]
+fn components_follow_the_motion() {
+    for (direction, expected) in [
+        (
+            "\"ball.velocity\"",
+            (|ball: &BodySnapshot| ball.velocity.normalize()) as fn(&BodySnapshot) -> DVec3,
+        ),
+        ("{ point = [0, 9, 0] }", |ball| (DVec3::Y * 9.0 - ball.location).normalize()),
+    ] {
+        let keys = format!("arrows.weight = {{ scale = 0.1, components = {direction} }}");
+        let (plan, _) = plan(&keys);
+        let text = format!(
+            "simulation = {{ duration = 1, gravity = [0, -10, 0] }}
+            [body.ball]\nshape.sphere.radius = 0.1\nvelocity = [1, 5, 0]\n{keys}"
+        );
+        let frame = Frames::at(&Scene::parse(&text).unwrap(), 0.3).unwrap();
+        let ball = frame.bodies[0];
+        let weight = DVec3::NEG_Y * 10.0 * 0.1;
+        let weight =
+            weight * plan.arrows(&frame)[0].from.distance(plan.arrows(&frame)[0].to) / weight.length();
+        let along = expected(&ball) * weight.dot(expected(&ball));
+        let marks = plan.marks(&frame);
+        let drawn: Vec<DVec3> = marks
+            .iter()
+            .filter_map(|thing| match thing.form {
+                Form::Arrow { from, to, .. } => Some(to - from),
+                _ => None,
+            })
+            .collect();
+        let [_, one, other] = drawn[..] else { panic!("an arrow and two components: {drawn:?}") };
+        assert!(one.abs_diff_eq(along, 1e-9) && (one + other).abs_diff_eq(weight, 1e-9), "{drawn:?} {along}");
+    }
+}
+
+/// Curves have the colors that the scene gives them, and the horizontal axis has its range. A ball moves by 1 m/s, so the curve of x between
+/// 0.25 s and 0.75 s goes from corner to corner of a plot from 0.25 to 0.75.
+#[test]
+fn curves_have_given_colors_and_axes_given_ranges() {
+    let text = "simulation = { duration = 2, integrator = 'rk4' }\n[body.ball]\nshape.sphere.radius = 0.1\nvelocity = [1, 0, 0]
+        [plot.p]\ny = ['ball.x', '1 - ball.x']\ncolors = ['red', '#00ff00']\nx_range = [0.25, 0.75]\nrange = [0.25, 0.75]";
+    let scene = Scene::parse(text).unwrap();
+    let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+    let plot = &plan.planned_plots()[0];
+    let colors: Vec<Color> = plot.curves.iter().map(|curve| curve.color).collect();
+    assert_eq!(colors, [Color([1.0, 0.0, 0.0]), Color([0.0, 1.0, 0.0])]);
+    let axes: Vec<_> = plot.lines.iter().filter(|line| line.is_axis).collect();
+    let corners = |k: usize| axes.iter().flat_map(move |line| [line.from[k], line.to[k]]);
+    let [low, high] = [f64::min, f64::max].map(|of| [0, 1].map(|k| corners(k).reduce(of).unwrap()));
+    let ends: Vec<[f64; 2]> = plot.curves[0].points.iter().filter_map(|point| point.at).collect();
+    let near = |one: [f64; 2], other: [f64; 2]| one.iter().zip(other).all(|(a, b)| (a - b).abs() < 1e-9);
+    assert!(near(ends[0], low) && near(ends[ends.len() - 1], high), "{ends:?}, not from {low:?} to {high:?}");
+}
+
+/// A bar for each copy of a body: their heights are as 1 to 2 to 3, their color is one, and their names are their indices.
+#[test]
+fn copies_have_a_bar_each() {
+    let text = "simulation = { duration = 1, integrator = 'rk4' }\n[body.ball]\nshape.sphere.radius = 0.1
+        repeat = 3\nvelocity = ['1 + i', 0, 0]\nlocation = [0, 'i', 0]\n[plot.p]\nbars = 'ball.speed'";
+    let scene = Scene::parse(text).unwrap();
+    let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+    let bars = plan.plots(&Frames::at(&scene, 0.5).unwrap())[0].bars.clone();
+    let heights: Vec<f64> = bars.iter().map(|bar| bar.to[1] - bar.from[1]).collect();
+    assert!((heights[1] / heights[0] - 2.0).abs() < 1e-9 && (heights[2] / heights[0] - 3.0).abs() < 1e-9);
+    assert!(bars.iter().all(|bar| bar.color == bars[0].color));
+    let said: Vec<&str> = plan.planned_plots()[0].texts.iter().map(|text| text.says.as_ref()).collect();
+    assert!(["0", "1", "2", "m/s"].iter().all(|word| said.contains(word)), "{said:?}");
 }

@@ -5,8 +5,8 @@ use glam::DVec3;
 use super::Plan;
 use crate::picture::bar::Bar;
 use crate::picture::marks::{self, Note, Sketch};
-use crate::picture::occupancy::Occupancy;
 use crate::picture::screen::Screen;
+use crate::picture::surroundings::Surroundings;
 use crate::picture::text::Text;
 use crate::picture::thing::Thing;
 use crate::simulate::{Frame, MomentState};
@@ -67,18 +67,19 @@ impl Plan {
         let mut named = Vec::new();
         if self.labels.are_beside_bodies(frame.time) || !notes.is_empty() {
             let before = labels.len();
-            self.lines(frame).into_iter().for_each(|(ends, width)| room.cross(ends, width, &screen));
-            for (ends, width) in things.iter().flat_map(|thing| thing.form.avoided()) {
-                room.cross(ends, width, &screen);
+            let mut surroundings = Surroundings {
+                texts: room,
+                lines: self.labels.room(),
+                bodies: self.labels.crowd(frame, &screen),
+            };
+            let avoided = things.iter().flat_map(|thing| thing.form.avoided());
+            for (ends, width) in self.lines(frame).into_iter().chain(avoided) {
+                surroundings.lines.cross(ends, width, &screen);
             }
-            let mut beside = Occupancy::new(room.aspect());
-            if !notes.is_empty() {
-                let crowd = self.labels.crowd(frame, &screen);
-                let now = MomentState::now(frame);
-                named = marks::place(notes, &self.labels, &now, &screen, (&mut room, &crowd));
-                named.iter().for_each(|text| beside.take_text(text));
-            }
-            labels.extend(self.labels.beside_bodies(frame, &screen, &mut room));
+            let mut beside = self.labels.room();
+            named = marks::place(notes, &self.labels, &MomentState::now(frame), &screen, &mut surroundings);
+            named.iter().for_each(|text| beside.take_text(text));
+            labels.extend(self.labels.beside_bodies(frame, &screen, &mut surroundings));
             labels[before..].iter().for_each(|(_, text)| beside.take_text(text));
             grid.extend(numbers.into_iter().filter(|number| beside.has_room_for(number)));
             labels.sort_by_key(|(place, _)| *place);

@@ -3,14 +3,19 @@
 use super::super::colors::seen;
 use crate::scene::{Color, Plot, PlotKind, Scene};
 
-/// The colors of the curves or bars: that of the only body in a formula or of the first body of a histogram, or else one of a palette whose colors can be told apart.
+/// The colors of the curves or bars: that of the scene, that of the only body in a formula or of the first body of a histogram, or else one of a palette whose colors can be told apart.
 pub(super) fn of_curves(scene: &Scene, plot: &Plot, dark: bool) -> Vec<Color> {
     let mut free = Color::OF_CURVES.into_iter().cycle();
     let mut colors: Vec<Color> = Vec::new();
+    let are_alike = plot.kind == PlotKind::Bars { are_copies: true };
     for curve in &plot.curves {
+        if let Some(color) = curve.color.or_else(|| colors.first().copied().filter(|_| are_alike)) {
+            colors.push(color);
+            continue;
+        }
         let first = match &plot.kind {
             PlotKind::Histogram { bodies, .. } => bodies.first().copied(),
-            PlotKind::Curves | PlotKind::Bars => None,
+            PlotKind::Curves | PlotKind::Bars { .. } => None,
         };
         let material = curve.y.body().or(first).and_then(|body| scene.bodies[body].material);
         let own = material.and_then(|material| scene.materials[material].look.color());

@@ -180,7 +180,7 @@ impl Plots {
         for (((plot, planned), (axes, area)), colors) in plots {
             let values: Vec<f64> = match &plot.kind {
                 PlotKind::Curves => Vec::new(),
-                PlotKind::Bars => {
+                PlotKind::Bars { .. } => {
                     plot.curves.iter().map(|bar| self.measures.value(&bar.y, &moment)).collect()
                 }
                 PlotKind::Histogram { bodies, .. } => plot.curves.first().map_or(Vec::new(), |curve| {
@@ -233,7 +233,7 @@ fn drawn_bars(
 ) -> Vec<PlotBar> {
     match (kind, colors) {
         (PlotKind::Curves, _) | (PlotKind::Histogram { .. }, []) => Vec::new(),
-        (PlotKind::Bars, colors) => {
+        (PlotKind::Bars { .. }, colors) => {
             bars::beside_each_other(values.iter().copied().zip(colors.iter().copied()), axes, area)
         }
         (PlotKind::Histogram { bins, .. }, [color, ..]) => {
@@ -255,10 +255,10 @@ fn plan(
         plot.curves.iter().zip(colors).map(|(curve, color)| (curve.name.as_str(), *color)).collect();
     let units = match plot.kind {
         PlotKind::Curves => [plot.x.unit().unwrap_or_default(), unit(plot)],
-        PlotKind::Bars => ["", unit(plot)],
+        PlotKind::Bars { .. } => ["", unit(plot)],
         PlotKind::Histogram { .. } => [unit(plot), ""],
     };
-    let is_bars = plot.kind == PlotKind::Bars;
+    let is_bars = matches!(plot.kind, PlotKind::Bars { .. });
     let legend = Legend {
         title: plot.title.as_deref(),
         names: if is_bars { &[] } else { &names },

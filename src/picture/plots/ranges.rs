@@ -25,7 +25,7 @@ impl<'a> Values<'a> {
             curves: points.by_ref().take(plot.curves.len()).map(Vec::as_slice).collect(),
             spread: match plot.kind {
                 PlotKind::Histogram { .. } => spreads.next(),
-                PlotKind::Curves | PlotKind::Bars => None,
+                PlotKind::Curves | PlotKind::Bars { .. } => None,
             },
         };
         scene.plots.iter().map(values).collect()
@@ -55,25 +55,25 @@ pub(super) fn scales(scene: &Scene, plot: &Plot, values: &Values<'_>) -> [Scale;
             let end = scene.simulation.timeline.end() / plot.x.unit_size();
             let level = Range {
                 // The whole run, even if the curves begin later or end earlier.
-                span: match (plot.is_over_time(), plot.is_logarithmic[0]) {
+                span: plot.x_range.unwrap_or_else(|| match (plot.is_over_time(), plot.is_logarithmic[0]) {
                     (true, false) => [0.0, end],
                     // The first frame is at time 0, which has no place.
                     (true, true) => [values.span(0).map_or(end / 10.0, |[begin, _]| begin), end],
                     (false, _) => values.span(0).unwrap_or(unknown(0)),
-                },
-                is_wider: !plot.is_over_time(),
+                }),
+                is_wider: plot.x_range.is_none() && !plot.is_over_time(),
                 is_count: plot.x.is_count,
             };
             [scale(0, level), scale(1, upright(values.span(1), is_count))]
         }
-        PlotKind::Bars => {
+        PlotKind::Bars { .. } => {
             let with_zero = values.span(1).map(|[low, high]| [low.min(0.0), high.max(0.0)]);
             let names = u8::try_from(plot.curves.len()).unwrap_or(u8::MAX);
             [Scale::Names(names), scale(1, upright(with_zero, is_count))]
         }
         PlotKind::Histogram { bins, .. } => {
             let spread = values.spread.filter(|spread| spread.span.is_some());
-            let span = spread.and_then(|spread| spread.span).unwrap_or(unknown(0));
+            let span = plot.x_range.or(spread.and_then(|spread| spread.span)).unwrap_or(unknown(0));
             // The bins end at the lowest and the highest value, which are seldom whole.
             let level = Range { span, is_wider: false, is_count: false };
             let axis = Axis::new(&level, 1.0);

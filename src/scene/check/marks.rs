@@ -11,6 +11,7 @@ use crate::diagnostic::{Code, Diagnostic, Span, nearest};
 use crate::lettering;
 use crate::physics::{Anchor, BodyId};
 use crate::scene::grammar::bodies::body;
+use crate::scene::grammar::forces::constant;
 use crate::scene::grammar::marks::{angle, area, distance, leg};
 use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::showing::{arrow, arrows, joint_arrows};
@@ -110,7 +111,18 @@ fn leg_of(
     context: &mut Context<'_>,
 ) -> Option<Leg> {
     let node = view.node(key)?;
-    let leg = match &node.value {
+    let leg = direction_of(node, known, context)?;
+    if leg == Leg::Towards(vertex) {
+        let error = Diagnostic::error(Code::BadMark, "this leg of the angle has no direction");
+        context.diagnostics.push(error.at(node.span, "it is the vertex itself"));
+        return None;
+    }
+    Some(leg)
+}
+
+/// Reads a direction, such as a leg of an angle.
+fn direction_of(node: &Node, known: Known<'_, '_>, context: &mut Context<'_>) -> Option<Leg> {
+    Some(match &node.value {
         Value::Array(_) => Leg::Along(DVec3::from_array(read::direction(node).ok()?)),
         Value::Table(table) => {
             let view = View::new(&leg::TABLE, Some(table));
@@ -123,13 +135,7 @@ fn leg_of(
             }
         }
         _ => named_leg(node, known, context)?,
-    };
-    if leg == Leg::Towards(vertex) {
-        let error = Diagnostic::error(Code::BadMark, "this leg of the angle has no direction");
-        context.diagnostics.push(error.at(node.span, "it is the vertex itself"));
-        return None;
-    }
-    Some(leg)
+    })
 }
 
 /// Reads a leg that names a body, such as `"bob"`, or a vector of a body, such as `"ball.velocity"`.
@@ -149,7 +155,7 @@ fn named_leg(node: &Node, known: Known<'_, '_>, context: &mut Context<'_>) -> Op
     let vector = vector.unwrap_or_default();
     let quantity = VECTORS.into_iter().find(|quantity| quantity.name() == vector);
     if quantity.is_none() {
-        let message = format!("a body has no vector `{vector}` that an angle could begin with");
+        let message = format!("a body has no vector `{vector}` that gives a direction");
         let names = VECTORS.map(Quantity::name);
         let label = nearest(vector, names).map_or(String::new(), |near| format!("did you mean `{near}`?"));
         let help = format!("there are {}", crate::scene::grammar::quoted(&names));
@@ -236,7 +242,7 @@ pub(super) fn arrow_marks(known: Known<'_, '_>, context: &mut Context<'_>) -> Ve
         let Some(view) = arrows.variant(key) else { return };
         let of = match owner {
             ArrowOwner::Body(body) => Some(body),
-            ArrowOwner::Joint(_) => None,
+            ArrowOwner::Joint(_) | ArrowOwner::Force(_) => None,
         };
         let text = known.text(&view, &arrow::LABEL, of, context);
         let mut texts = view.list(&arrow::COMPONENT_LABELS).unwrap_or_default().iter();
@@ -245,8 +251,9 @@ pub(super) fn arrow_marks(known: Known<'_, '_>, context: &mut Context<'_>) -> Ve
             Some(known.pieces((node.as_str()?, node.span), of, context))
         };
         let texts = next().zip(next()).map(|(along, across)| [along, across]);
-        let components = view.get(&arrow::COMPONENTS);
-        if let (None, Some(span)) = (components, view.key_span(&arrow::COMPONENT_LABELS)) {
+        let along = view.node(&arrow::COMPONENTS);
+        let components = along.and_then(|node| direction_of(node, known, context));
+        if let (None, Some(span)) = (along, view.key_span(&arrow::COMPONENT_LABELS)) {
             let message = "`component_labels` has no effect without `components`";
             context.diagnostics.push(Diagnostic::warning(Code::NoEffect, message).at(span, ""));
         }
@@ -265,6 +272,11 @@ pub(super) fn arrow_marks(known: Known<'_, '_>, context: &mut Context<'_>) -> Ve
                     key.into_iter().for_each(|key| read(ArrowOwner::Body(number), &arrows, key, quantity));
                 }
             });
+        }
+    }
+    for (number, (_, _, view)) in known.root.named(&scene::FORCE).into_iter().enumerate() {
+        if let Some((_, kind)) = view.chosen() {
+            read(ArrowOwner::Force(number), &kind, &constant::ARROW.spec, Quantity::NamedForce);
         }
     }
     for (number, (_, _, view)) in known.root.named(&scene::JOINT).into_iter().enumerate() {

@@ -153,8 +153,9 @@ impl Reader<'_, '_, '_> {
         if let Some(OwnBody { body, ghosts }) = self.own {
             with_run = !ghosts;
             let known = BodyMeasure::ALL.into_iter();
-            let known =
-                known.filter(|(_, measure, _)| *measure != BodyMeasure::Impacts || has_contacts && !ghosts);
+            let known = known.filter(|(_, measure, _)| {
+                (has_contacts || !measure.needs_contacts()) && (!ghosts || measure.is_of_state())
+            });
             known.for_each(|(name, measure, _)| add(name, Measure::Body(body, measure)));
         }
         for (name, measure, _) in RunMeasure::ALL {
@@ -179,7 +180,10 @@ impl Reader<'_, '_, '_> {
         };
         for error in errors {
             let range = start + error.range.start..start + error.range.end;
-            if self.text.get(range.clone()) == Some("impacts") && self.needs_contacts(range).is_none() {
+            let needs = |word: &str| {
+                BodyMeasure::ALL.iter().any(|(name, measure, _)| *name == word && measure.needs_contacts())
+            };
+            if self.text.get(range.clone()).is_some_and(needs) && self.needs_contacts(range).is_none() {
                 continue;
             }
             let at = self.at(&(start + error.range.start..start + error.range.end));
@@ -206,5 +210,5 @@ impl Reader<'_, '_, '_> {
 
 /// Returns whether a measure belongs to a body alone.
 fn is_of(measure: Measure, body: usize) -> bool {
-    matches!(measure, Measure::Body(Subject::One(one), _) if one == body)
+    matches!(measure, Measure::Body(Subject::One(one), measure) if one == body && measure.is_of_state())
 }

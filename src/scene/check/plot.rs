@@ -10,9 +10,10 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::labels::plot;
 use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::{Any, Key, KeySpec};
+use crate::scene::read;
 use crate::scene::source::Node;
 use crate::scene::value::Text;
-use crate::scene::{Curve, MeasureFormula, Plot, PlotKind, PlotPlace, PlotSpans};
+use crate::scene::{Color, Curve, MeasureFormula, Plot, PlotKind, PlotPlace, PlotSpans};
 
 /// A text of a plot, with the place where it is written.
 type Written<'a> = (&'a str, Span);
@@ -23,8 +24,8 @@ struct Read<'a> {
     of: Vec<Written<'a>>,
     /// The formulas of these texts. `None` for one with a mistake.
     formulas: Vec<Option<MeasureFormula>>,
-    /// The name of the only thing that is drawn, if its formula is not its name.
-    name: Option<String>,
+    /// The names of the things that are drawn, if their formulas are not their names.
+    names: Vec<String>,
 }
 
 /// Reads formulas and texts of plots.
@@ -52,7 +53,7 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
         let x_formula = view.get(&plot::X);
         let x = self.formula((x_formula, view.span(&plot::X).unwrap_or(span)));
         self.check_keys((name, span), view);
-        let Read { kind, of: written, formulas, name: own_name } = self.drawn(view);
+        let Read { kind, of: written, formulas, names: own_names } = self.drawn(view);
         let across = match written.first() {
             Some((text, span)) if matches!(kind, PlotKind::Histogram { .. }) => (*text, *span),
             _ => (x_formula, span),
@@ -61,37 +62,24 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
         let set_names: Vec<Option<String>> = names.iter().map(|name| self.set(*name)).collect();
         let [title, x_name] =
             [&plot::TITLE, &plot::X_NAME].map(|key| self.set(view.get(key).zip(view.span(key))?));
-        if !names.is_empty() && names.len() != written.len() {
-            let noun = kind.noun();
-            let counted =
-                |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
-            let message = format!(
-                "the plot has {}, and {}",
-                counted(written.len(), noun),
-                counted(names.len(), "name")
-            );
-            self.report(view.span(&plot::NAMES), message, &format!("each {noun} has one name"));
-        }
-        let range = view.get(&plot::RANGE).and_then(|range| <[f64; 2]>::try_from(range).ok());
-        let is_extreme = |[low, high]: [f64; 2]| {
-            let largest = low.abs().max(high.abs());
-            largest > Plot::MAX_VALUE || high - low < 1e-12 * largest || high - low < 1.0 / Plot::MAX_VALUE
-        };
-        if range.is_some_and(|[low, high]| low < high && is_extreme([low, high])) {
-            let message = "this range is too small or too large for numbers".to_owned();
-            self.report(view.span(&plot::RANGE), message, "the numbers of the axis could not be told apart");
-        }
-        if range.is_some_and(|[low, high]| low >= high) {
-            self.report(
-                view.span(&plot::RANGE),
-                "this range is empty".to_owned(),
-                "the lower value comes first",
-            );
-        }
+        self.check_count(view.span(&plot::NAMES), (&kind, formulas.len()), (names.len(), "name"));
+        let colors: Vec<Color> = view
+            .list(&plot::COLORS)
+            .unwrap_or_default()
+            .iter()
+            .filter_map(|node| read::color(node).ok())
+            .collect();
+        self.check_count(view.span(&plot::COLORS), (&kind, formulas.len()), (colors.len(), "color"));
+        let range = self.range(view, &plot::RANGE);
+        let x_range = self.range(view, &plot::X_RANGE);
         let is_logarithmic = logarithmic(view);
         if is_logarithmic[1] && range.is_some_and(|[low, _]| low <= 0.0) {
             let message = "a logarithmic axis has no zero and no negative numbers".to_owned();
             self.report(view.span(&plot::RANGE), message, "both values must be greater than 0");
+        }
+        if is_logarithmic[0] && x_range.is_some_and(|[low, _]| low <= 0.0) {
+            let message = "a logarithmic axis has no zero and no negative numbers".to_owned();
+            self.report(view.span(&plot::X_RANGE), message, "both values must be greater than 0");
         }
         let place = match view.get(&plot::SIDE) {
             Some("left") => PlotPlace::Left,
@@ -118,7 +106,8 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
                 format!("{}{unit}", name.trim())
             });
             let set = set_names.get(number).cloned().flatten();
-            Some(Curve { name: set.or(own_name.clone()).or(own)?, y: formula? })
+            let name = set.or_else(|| own_names.get(number).cloned()).or(own)?;
+            Some(Curve { name, y: formula?, color: colors.get(number).copied() })
         };
         let curves: Vec<Curve> = formulas.into_iter().enumerate().filter_map(curve).collect();
         let curves_at = written.iter().map(|(_, span)| *span).collect();
@@ -132,6 +121,7 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             curves,
             place,
             width,
+            x_range,
             range,
             is_logarithmic,
             has_names_at_ends: view.get(&plot::LEGEND) == Plot::PLACES_OF_NAMES[0],
@@ -143,20 +133,81 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
     /// Reads what a plot draws.
     fn drawn<'t>(&mut self, view: &View<'t>) -> Read<'t> {
         if let Some(text) = view.get(&plot::HISTOGRAM).zip(view.span(&plot::HISTOGRAM)) {
-            let read = self.histogram(text);
+            let read = self.of_copies("histogram", text);
             let bodies = read.as_ref().map_or(Arc::default(), |read| read.bodies.clone());
             let bins = view.get(&plot::BINS).and_then(|bins| u8::try_from(bins).ok());
             let kind = PlotKind::Histogram { bins: bins.unwrap_or_else(|| usual_bins(bodies.len())), bodies };
             let (name, formula) = read.map(|read| (read.name, read.formula)).unzip();
-            return Read { kind, of: vec![text], formulas: vec![formula], name };
+            return Read { kind, of: vec![text], formulas: vec![formula], names: name.into_iter().collect() };
         }
         let (kind, key) = match view.has(&plot::BARS) {
-            true => (PlotKind::Bars, &plot::BARS),
+            true => (PlotKind::Bars { are_copies: false }, &plot::BARS),
             false => (PlotKind::Curves, &plot::Y),
         };
         let of = texts(view, key);
+        if let ([text], PlotKind::Bars { .. }) = (of.as_slice(), &kind)
+            && self.reader(*text).names_several(text.0)
+        {
+            return self.bars_of_copies(*text);
+        }
         let formulas = of.iter().map(|text| self.formula(*text)).collect();
-        Read { kind, of, formulas, name: None }
+        Read { kind, of, formulas, names: Vec::new() }
+    }
+
+    /// Reads a bar for each copy of a body. Their names are the indices of the copies.
+    fn bars_of_copies<'t>(&mut self, text: Written<'t>) -> Read<'t> {
+        let read = self.of_copies("bars", text);
+        let bodies = read.as_ref().map_or(Arc::default(), |read| read.bodies.clone());
+        if bodies.len() > Plot::MAX_BARS {
+            let message = format!("these are {} bars", bodies.len());
+            self.report(Some(text.1), message, &format!("a plot has at most {}", Plot::MAX_BARS));
+        }
+        let index = |body: &usize| {
+            let name = &*self.things.bodies[*body].name;
+            let index = name.split_once('[').map_or(name, |(_, index)| index.trim_end_matches(']'));
+            index.to_owned()
+        };
+        let names = bodies.iter().map(index).collect();
+        let of_copy = |body: &usize| {
+            let formula = read.as_ref()?.formula.clone();
+            let inputs = formula.inputs.iter().map(|measure| measure.of_one(*body)).collect();
+            let single = formula.single.map(|measure| measure.of_one(*body));
+            Some(MeasureFormula { inputs, single, ..formula })
+        };
+        let formulas = bodies.iter().map(of_copy).collect();
+        Read { kind: PlotKind::Bars { are_copies: true }, of: vec![text], formulas, names }
+    }
+
+    /// Reads the range of an axis. Reports one that is empty or extreme.
+    fn range(&mut self, view: &View<'_>, key: &Key<Option<Vec<f64>>>) -> Option<[f64; 2]> {
+        let [low, high] = <[f64; 2]>::try_from(view.get(key)?).ok()?;
+        let largest = low.abs().max(high.abs());
+        if low >= high {
+            self.report(view.span(key), "this range is empty".to_owned(), "the lower value comes first");
+        } else if largest > Plot::MAX_VALUE
+            || high - low < 1e-12 * largest
+            || high - low < 1.0 / Plot::MAX_VALUE
+        {
+            let message = "this range is too small or too large for numbers".to_owned();
+            self.report(view.span(key), message, "the numbers of the axis could not be told apart");
+        }
+        Some([low, high])
+    }
+
+    /// Reports a list of names or colors with another length than that of the curves or bars. An empty list means that there is none.
+    fn check_count(
+        &mut self,
+        span: Option<Span>,
+        (kind, curves): (&PlotKind, usize),
+        (found, noun): (usize, &str),
+    ) {
+        if found == 0 || found == curves {
+            return;
+        }
+        let counted =
+            |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
+        let message = format!("the plot has {}, and {}", counted(curves, kind.noun()), counted(found, noun));
+        self.report(span, message, &format!("each {} has one {noun}", kind.noun()));
     }
 
     /// Reports a plot that draws nothing, and the keys that have no meaning for what it draws.
@@ -176,6 +227,7 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
                 "bars",
                 &[
                     &plot::X.spec,
+                    &plot::X_RANGE.spec,
                     &plot::X_NAME.spec,
                     &plot::LOG.spec,
                     &plot::AHEAD.spec,
@@ -196,8 +248,8 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
     }
 
     /// Reads a formula that has a value for each of several bodies.
-    fn histogram(&mut self, written: Written<'_>) -> Option<OfEach> {
-        self.is_plain(written).then(|| self.reader(written).of_each("histogram", 0..written.0.len()))?
+    fn of_copies(&mut self, function: &'static str, written: Written<'_>) -> Option<OfEach> {
+        self.is_plain(written).then(|| self.reader(written).of_each(function, 0..written.0.len()))?
     }
 
     /// Returns false and reports an error if a text of a plot cannot be a formula.

@@ -12,12 +12,12 @@ use crate::scene::{
     Arrow, BodyAxes, Ghosts, Quantity, Showing, SimulationSettings, SpringLine, SpringLook, Trail,
 };
 
-/// The maximum number of ghosts of a body, which are its drawn past positions.
 /// The keys for what is drawn with a moving body.
 static MOVING_KEYS: [&KeySpec; 3] = [&body::ARROWS.spec, &body::GHOSTS.spec, &body::TRAIL.spec];
 /// The keys for what is drawn with any body.
 static SHOWING_KEYS: [&KeySpec; 4] =
     [&body::ARROWS.spec, &body::AXES.spec, &body::GHOSTS.spec, &body::TRAIL.spec];
+/// The maximum number of ghosts of a body, which are its drawn past positions.
 const MAX_GHOSTS: f64 = 10_000.0;
 
 /// Reads the arrows, axes, ghosts and trail of a body. Warns of keys that have no effect for a plane or a fixed body.

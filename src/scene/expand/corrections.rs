@@ -36,7 +36,15 @@ impl Expander<'_> {
             Code::NumberWithUnit,
             format!("a number stands alone, without the unit `{unit}`"),
         );
+        let is_angle = units::factor(unit, "degrees").is_some();
         self.diagnostics.push(match units::converted(number, unit, of) {
+            // Which unit a variable has depends on the formulas that use it. Most angles in formulas are arguments of sines.
+            Some(degrees) if of.is_empty() && is_angle => {
+                let degrees = units::converted(number, unit, "degrees").unwrap_or(degrees);
+                error
+                    .at(span, "sine, cosine and tangent take radians")
+                    .fix(span, format!("\"rad({degrees})\""))
+            }
             Some(converted) => {
                 let label = if of.is_empty() {
                     "numbers are in SI units".to_owned()

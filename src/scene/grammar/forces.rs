@@ -114,6 +114,7 @@ table! {
         .unit("N·m")
         .default_numbers(&[0.0, 0.0, 0.0]),
     ON: Any = on("The bodies under the force", "all that can move"),
+    ARROW: Any = showing::ARROW_OF_FORCE,
 }
 
 table! {
@@ -139,6 +140,7 @@ table! {
         .default_numbers(&[0.0, 0.0, 0.0])
         .also(&["velocity", "air", "flow"]),
     ON: Any = on("The bodies under the drag", "all that can move"),
+    ARROW: Any = showing::ARROW_OF_FORCE,
 }
 
 table! {
@@ -170,6 +172,7 @@ table! {
         .also(&["length", "rest"]),
     LINE: value::Text = showing::LINE,
     COIL: Any = showing::COIL,
+    ARROW: Any = showing::ARROW_OF_FORCE,
 }
 
 table! {
@@ -204,6 +207,7 @@ table! {
         "Two groups, each a body, all copies of a body, or a list. Bodies attract those of the other \
          group only",
     ),
+    ARROW: Any = showing::ARROW_OF_FORCE,
 }
 
 table! {
@@ -218,6 +222,7 @@ table! {
         "Two groups, each a body, all copies of a body, or a list. Bodies act on those of the other \
          group only",
     ),
+    ARROW: Any = showing::ARROW_OF_FORCE,
 }
 
 table! {
@@ -255,6 +260,7 @@ table! {
         "Two groups, each a body, all copies of a body, or a list. Bodies act on those of the other \
          group only",
     ),
+    ARROW: Any = showing::ARROW_OF_FORCE,
 }
 
 table! {
@@ -275,6 +281,7 @@ table! {
         .default_flag(false)
         .also(&["show", "look", "draw", "visible"]),
     ON: Any = on("The bodies in the liquid", "all that can move"),
+    ARROW: Any = showing::ARROW_OF_FORCE,
 }
 
 static SURFACE_KINDS: [Kind; 2] = [Boolean, Table(&liquid_surface::TABLE)];
@@ -299,6 +306,7 @@ table! {
         "Two groups, each a body, all copies of a body, or a list. Bodies act on those of the other \
          group only",
     ),
+    ARROW: Any = showing::ARROW_OF_FORCE,
 }
 
 table! {
@@ -325,6 +333,7 @@ table! {
         .default_number(Gravitation::CONSTANT)
         .also(&["g", "G"]),
     ON: Any = on("The bodies that act on the planet and it on them", "all others but planes"),
+    ARROW: Any = showing::ARROW_OF_FORCE,
 }
 
 table! {
@@ -348,6 +357,7 @@ table! {
     .default("none: all of its work is booked")
     .also(&["u", "U", "energy", "potential_energy"]),
     ON: Any = on("The bodies under the force", "all that can move"),
+    ARROW: Any = showing::ARROW_OF_FORCE,
 }
 
 table! {
@@ -361,4 +371,5 @@ table! {
         .default_numbers(&[0.0, 0.0, 0.0])
         .also(&["b", "B"]),
     ON: Any = on("The bodies that it acts on", "all movable bodies with a charge"),
+    ARROW: Any = showing::ARROW_OF_FORCE,
 }

@@ -251,7 +251,12 @@ impl Kind {
                 format!("a list of {min} values, each {}", of.in_words())
             }
             Kind::List { of, min: 0, .. } => format!("a list of values, each {}", of.in_words()),
-            Kind::List { of, min: 1, .. } => format!("a list of at least 1 value, each {}", of.in_words()),
+            Kind::List { of, min: 1, max: usize::MAX } => {
+                format!("a list of at least 1 value, each {}", of.in_words())
+            }
+            Kind::List { of, min, max } if *max < usize::MAX => {
+                format!("a list of {min} to {max} values, each {}", of.in_words())
+            }
             Kind::List { of, min, .. } => format!("a list of at least {min} values, each {}", of.in_words()),
             Kind::Table(table) => format!("a table with the keys of {}", table.noun),
             Kind::Named(table) => format!("tables with names, each {}", table.noun),

@@ -106,6 +106,7 @@ fn places_of_names() -> Vec<&'static str> {
 
 static LOG_KINDS: [Kind; 2] = [Boolean, Choice(logarithmic_axes)];
 static TEXTS: [Kind; 2] = [Text, List { of: &Text, min: 1, max: Plot::MAX_CURVES }];
+static TEXTS_OF_BARS: [Kind; 2] = [Text, List { of: &Text, min: 1, max: Plot::MAX_BARS }];
 const NUMBER: Kind = Number(Bound::Any);
 /// A list of two numbers: the ends of a range.
 pub(super) const TWO_NUMBERS: Kind = List { of: &NUMBER, min: 2, max: 2 };
@@ -121,8 +122,8 @@ table! {
     .also(&["ys", "curves", "series", "values", "of"]),
     BARS: Any = KeySpec::new(
         "bars",
-        Either(&TEXTS),
-        "The measures to draw as bars, as high as their values at the moment of the picture",
+        Either(&TEXTS_OF_BARS),
+        "The measures to draw as bars, as high as their values at the moment of the picture; `\"ball.speed\"` of a repeated body is a bar for each copy",
     )
     .default("none: `y` or `histogram` stands in its place")
     .also(&["bar", "columns", "bar_chart"]),
@@ -140,9 +141,16 @@ table! {
     X_NAME: Option<value::Text> = KeySpec::new("x_name", Text, "The name of the measure across")
         .default("the formula")
         .also(&["xlabel", "x_label"]),
-    NAMES: Any = KeySpec::new("names", Either(&TEXTS), "The names of the curves, one for each")
+    NAMES: Any = KeySpec::new("names", Either(&TEXTS_OF_BARS), "The names of the curves, one for each")
         .default("the formulas")
         .also(&["name", "labels"]),
+    COLORS: Any = KeySpec::new(
+        "colors",
+        List { of: &Color, min: 1, max: Plot::MAX_BARS },
+        "The colors of the curves, one for each",
+    )
+    .default("those of their bodies, and others that one can tell apart")
+    .also(&["color", "colours"]),
     LEGEND: value::Text = KeySpec::new(
         "legend",
         Choice(places_of_names),
@@ -168,6 +176,9 @@ table! {
     RANGE: Option<Vec<f64>> = KeySpec::new("range", TWO_NUMBERS, "The lowest and the highest value of its vertical axis")
         .default("that of the curves")
         .also(&["y_range", "ylim", "limits"]),
+    X_RANGE: Option<Vec<f64>> = KeySpec::new("x_range", TWO_NUMBERS, "The lowest and the highest value of its horizontal axis")
+        .default("the whole run, or that of the curves")
+        .also(&["xlim", "t_range"]),
     LOG: Any = KeySpec::new("log", Either(&LOG_KINDS), "Whether the vertical axis is logarithmic, or which axes are; values that are not positive are left out")
         .default_flag(false)
         .also(&["logarithmic", "log_scale", "logscale", "scale"]),

@@ -39,7 +39,7 @@ fn styles() -> Vec<&'static str> {
 static POINT_KINDS: [Kind; 3] = [Reference(Collection::Body), VECTOR, Table(&end::TABLE)];
 const POINT: Kind = Either(&POINT_KINDS);
 static LEG_KINDS: [Kind; 3] = [Text, AXIS, Table(&leg::TABLE)];
-const LEG: Kind = Either(&LEG_KINDS);
+pub(super) const LEG: Kind = Either(&LEG_KINDS);
 
 table! {
     angle: "an angle", Rule::Any;
@@ -63,7 +63,7 @@ table! {
     AXIS: Option<value::Axis> = KeySpec::new(
         "axis",
         super::AXIS,
-        "The axis about which it counts, counterclockwise from the first leg, from −180° to 180°",
+        "The axis about which it counts, counterclockwise from the first leg as seen from the tip of the axis, from −180° to 180°",
     )
     .default("none: the angle between the legs, from 0° to 180°")
     .also(&["about", "normal"]),

@@ -396,7 +396,7 @@ body = \"ball\"
 Between `${` and `}` stands a [formula](#formulas) of the current values and `[variables]`. After a colon, `.2` means two
 decimals and `.2e` two decimals with a power of ten. The default is three significant digits, and all digits for a number of impacts. In a label at
 a body, the names of that body's values need no prefix, and take precedence over variables of the same name; with `ghosts`, only these and `t` are
-available. A value that is undefined, such as the speed of an absent body, is shown as `?`.
+available, without those that need other bodies or contacts, such as `potential`. A value that is undefined, such as the speed of an absent body, is shown as `?`.
 `output.decimal = \",\"` writes decimal commas in labels, plots, the grid and the scale bar.
 
 **Units**: after the colon, a unit can stand, alone or behind the format: `${ball.speed:km/h}` and `${ball.speed:.1f km/h}`. The value is
@@ -410,6 +410,10 @@ value of many copies: `sum(gas.kinetic)`, `mean(gas[*].x)`, `max(brick[*,0].y)`.
 **Forces**: `force.air.x` is the force that `[force.air]` alone exerts on its body. If it acts on several bodies, name one:
 `force.air.ball.x`. Fixed bodies feel no forces. `force.air.power` is its power on all its bodies together, the sum of F·v + τ·ω.
 
+**Potential energy**: `ball.potential` is the body's share of the potential energy of all forces. Of an energy that two bodies have together, such as
+that of a spring between them, each has half; beside a fixed or guided body or a fixed point, the other one has all of it. So the shares add up to `potential`.
+`force.spring.potential` is the energy of one force, and `force.spring.ball.potential` the body's share of it.
+
 Elsewhere, a variable of the scene hides a measure of the run with the same name. In the table, words in capitals stand for names: `BODY` and
 `OTHER` for bodies, `NAME` for a joint or a force. `jabuka list measures` prints it.
 
@@ -421,7 +425,7 @@ braces, only a single letter has a subscript, so `my_ball` stays as it is. A bac
 room, so others move into their places.
 
 A label at a body is left out of pictures without the body. If it would cover an arrow or another
-label, it moves to another side, or farther away. It hides the grid numbers that it would cover.
+label, it moves to another side, or a little farther away. It hides the grid numbers that it would cover.
 
 | name | meaning |
 | --- | --- |
@@ -441,6 +445,10 @@ location = [1, 1, 0]
 arrows.weight = { label = \"G\", components = [1, 1, 0], component_labels = [\"G₁\", \"G₂\"] }
 arrows.velocity.label = \"v = ${speed:.1} m/s\"
 
+[force.air.drag]
+linear = 0.3
+arrow.label = \"R\"
+
 [joint.string.rod]
 between = [[0, 2, 0], \"bob\"]
 
@@ -458,14 +466,16 @@ offset = [1.5, 0, 0]
 
 An angle is an arc between two legs that begin at one point. A leg is a direction, or points to a body or a point, or along the velocity, acceleration or
 force of a body. Without `axis`, the angle is that between the legs, from 0° to 180°. With `axis`, it counts counterclockwise about the axis, as seen
-along it, from −180° to 180°. A distance is a dimension line. `offset` moves the line away from its ends, and `along` measures in one direction only. Without a
+from the tip of the axis, from −180° to 180°. A distance is a dimension line. `offset` moves the line away from its ends, and `along` measures in one direction only. Without a
 `text`, an angle shows its name (`alpha` as α), and a distance shows its length.
 
 An area consists of the sectors that the line from `center` to `body` sweeps in equal times. `area.NAME` is the area of the last complete sector. A picture
 shows the sectors of the last turn. If the center moves, the path counts relative to it.
 
-`label` writes a text at the tip of an arrow. `components` draws the components of the vector along a direction and across it, too. Texts stand where there is
-room: they move aside for arrows, bodies and each other.
+`arrow` of a force draws this force alone at each of its bodies, beside the arrows of the body, which show sums. `label` writes a text at the tip of an arrow.
+`components` draws the components of the vector along a direction and across it, too. The direction is given as a leg of an angle: `components = \"bob.velocity\"`
+splits a force into those along the path and towards its center. Texts stand near what they name: they move a little aside for arrows and bodies, and never
+cover each other if they can evade.
 ";
 /// The documentation section on plots.
 const PLOTS: &str = "
@@ -525,7 +535,8 @@ bins = 12
 side = \"right\"
 ```
 
-`bars` draws the values of one moment as bars, with their names below. They begin at zero; negative values go down. `histogram` takes a formula that
+`bars` draws the values of one moment as bars, with their names below. They begin at zero; negative values go down. `bars = \"atom.speed\"` of a repeated
+body draws a bar for each copy, with its index below. `histogram` takes a formula that
 has a value for each of several copies, as inside `sum(…)`. It divides the range from the lowest to the highest value of the run into equal bins, and
 shows how many copies are in each bin at the moment of the picture. A value at the edge of two bins is in the upper one. The axes of both hold for
 the whole run. In a run with more than 2 million values, the axis of a histogram is made from evenly chosen frames.
@@ -537,7 +548,7 @@ A plot in a corner stands in front of the bodies. Several plots at the same plac
 If words have too little room, the letters get smaller, and the longest words are cut. A plot that leaves the picture or covers another one
 gets a warning, and so does a curve of which no picture shows a point. Beside a plot at a side, a camera that the scene neither places nor moves shows the bodies in the
 rest of the picture. `jabuka export SCENE --plot NAME -o FILE.svg` draws the whole plot for paper; FILE.png and FILE.pdf do so, too. Bars are
-those of the last moment.
+those of the last moment. FILE.csv is a table of its values in each frame.
 ";
 
 /// The documentation page under construction.

@@ -2,7 +2,8 @@
 
 use super::Kind::{Boolean, Choice, Color, Either, Integer, List, Table, Text};
 use super::key::table;
-use super::kind::{AXIS, POSITIVE, VECTOR};
+use super::kind::{POSITIVE, VECTOR};
+use super::marks::LEG;
 use super::{KeySpec, Kind, Rule};
 
 static AXES_KINDS: [Kind; 2] = [Boolean, Table(&axes::TABLE)];
@@ -25,6 +26,13 @@ pub(super) const JOINT_ARROWS: KeySpec = KeySpec::new(
     "Arrows for its action on its second end, starting there; the action on the first end is opposite",
 )
 .also(&["vectors", "arrow"]);
+pub(super) const ARROW_OF_FORCE: KeySpec = KeySpec::new(
+    "arrow",
+    ARROW,
+    "An arrow at each of its bodies, for this force alone, without the other forces; teal",
+)
+.default_flag(false)
+.also(&["arrows", "vector"]);
 pub(super) const AXES: KeySpec =
     KeySpec::new("axes", Either(&AXES_KINDS), "Its own axes x, y, z, which rotate with it")
         .default_flag(false)
@@ -108,10 +116,11 @@ table! {
     LABEL: Option<value::Text> = KeySpec::new("label", Text, "The text at its tip, with values as in a label: `\"v = ${speed:.1}\"`")
         .default("none")
         .also(&["text", "name", "caption"]),
-    COMPONENTS: Option<value::Axis> = KeySpec::new(
+    COMPONENTS: Any = KeySpec::new(
         "components",
-        AXIS,
-        "A direction: its components along and across the direction are drawn, too, as thinner arrows",
+        LEG,
+        "A direction: its components along and across the direction are drawn, too, as thinner arrows. The direction is given as a leg of an \
+         angle: `[1, 0, 0]`, `\"ball.velocity\"`, the name of a body, or a point",
     )
     .default("none")
     .also(&["component", "along", "split"]),

@@ -29,13 +29,23 @@ pub enum BodyMeasure {
     Power,
     /// The kinetic energy of translation and rotation, J.
     Kinetic,
+    /// The body's share of the potential energy, J: see [`Force::share_potential`](crate::physics::Force::share_potential).
+    Potential,
+    /// The magnitude of the body's angular momentum about the origin, kg·m²/s.
+    AngularMomentum,
+    /// A component of the body's angular momentum about the origin, kg·m²/s. The number is the axis: 0 for x, 1 for y, 2 for z.
+    AngularMomentumComponent(usize),
+    /// The magnitude of the sum of the normal forces on the body, N.
+    NormalForce,
+    /// The magnitude of the sum of the forces of friction on the body, N.
+    FrictionForce,
     /// The number of impacts of the body so far.
     Impacts,
 }
 
 impl BodyMeasure {
     /// All quantities of a body, each with its name in formulas and its meaning.
-    pub const ALL: [(&'static str, BodyMeasure, &'static str); 24] = [
+    pub const ALL: [(&'static str, BodyMeasure, &'static str); 31] = [
         ("x", BodyMeasure::Location(0), "its location"),
         ("y", BodyMeasure::Location(1), "its location"),
         ("z", BodyMeasure::Location(2), "its location"),
@@ -59,6 +69,29 @@ impl BodyMeasure {
         ("pz", BodyMeasure::MomentumComponent(2), "its momentum"),
         ("power", BodyMeasure::Power, "the power of the sum of the forces on it"),
         ("kinetic", BodyMeasure::Kinetic, "its kinetic energy, of translation and rotation"),
+        (
+            "potential",
+            BodyMeasure::Potential,
+            "its potential energy; of an energy that two moving bodies have together, each has half",
+        ),
+        (
+            "angular_momentum",
+            BodyMeasure::AngularMomentum,
+            "the size of its angular momentum about the origin, of its path and its rotation",
+        ),
+        ("lx", BodyMeasure::AngularMomentumComponent(0), "its angular momentum about the origin"),
+        ("ly", BodyMeasure::AngularMomentumComponent(1), "its angular momentum about the origin"),
+        ("lz", BodyMeasure::AngularMomentumComponent(2), "its angular momentum about the origin"),
+        (
+            "normal_force",
+            BodyMeasure::NormalForce,
+            "the size of the sum of the normal forces on it; needs `simulation.contacts`",
+        ),
+        (
+            "friction_force",
+            BodyMeasure::FrictionForce,
+            "the size of the sum of the forces of friction on it; needs `simulation.contacts`",
+        ),
         ("impacts", BodyMeasure::Impacts, "the number of its impacts so far"),
     ];
 
@@ -68,14 +101,33 @@ impl BodyMeasure {
             BodyMeasure::Location(_) => "m",
             BodyMeasure::Speed | BodyMeasure::Velocity(_) => "m/s",
             BodyMeasure::AccelerationMagnitude | BodyMeasure::Acceleration(_) => "m/s²",
-            BodyMeasure::ForceMagnitude | BodyMeasure::Force(_) => "N",
+            BodyMeasure::ForceMagnitude
+            | BodyMeasure::Force(_)
+            | BodyMeasure::NormalForce
+            | BodyMeasure::FrictionForce => "N",
             BodyMeasure::AngularSpeed => "rad/s",
             BodyMeasure::Mass => "kg",
             BodyMeasure::Momentum | BodyMeasure::MomentumComponent(_) => "kg·m/s",
             BodyMeasure::Power => "W",
-            BodyMeasure::Kinetic => "J",
+            BodyMeasure::Kinetic | BodyMeasure::Potential => "J",
+            BodyMeasure::AngularMomentum | BodyMeasure::AngularMomentumComponent(_) => "kg·m²/s",
             BodyMeasure::Impacts => "",
         }
+    }
+
+    /// Returns whether the quantity exists only with contacts.
+    pub fn needs_contacts(self) -> bool {
+        self.is_contact_force() || self == BodyMeasure::Impacts
+    }
+
+    /// Returns whether the quantity is a force of the body's contacts.
+    pub fn is_contact_force(self) -> bool {
+        matches!(self, BodyMeasure::NormalForce | BodyMeasure::FrictionForce)
+    }
+
+    /// Returns whether the quantity follows from the state of the body alone, without its contacts, its past and other bodies.
+    pub fn is_of_state(self) -> bool {
+        !self.needs_contacts() && self != BodyMeasure::Potential
     }
 
     /// Returns whether the quantity is a count. A label shows all digits of a count.

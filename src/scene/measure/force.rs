@@ -9,16 +9,23 @@ pub enum ForceMeasure {
     Size,
     /// The power of the force and its torque, W: on one body, or on all its bodies together.
     Power,
+    /// The potential energy of the force, J: of all its bodies together, or the share of one body.
+    Potential,
 }
 
 impl ForceMeasure {
     /// All quantities of a force, each with the last part of its name and its meaning.
-    pub const ALL: [(&'static str, ForceMeasure, &'static str); 5] = [
+    pub const ALL: [(&'static str, ForceMeasure, &'static str); 6] = [
         ("x", ForceMeasure::Component(0), "the force on its body, without the other forces"),
         ("y", ForceMeasure::Component(1), "the force on its body, without the other forces"),
         ("z", ForceMeasure::Component(2), "the force on its body, without the other forces"),
         ("size", ForceMeasure::Size, "the size of the force on its body, without the other forces"),
         ("power", ForceMeasure::Power, "the power of the force and its torque, on all its bodies together"),
+        (
+            "potential",
+            ForceMeasure::Potential,
+            "the potential energy of the force, of all its bodies together",
+        ),
     ];
 
     /// Returns the symbol of the quantity's unit.
@@ -26,11 +33,12 @@ impl ForceMeasure {
         match self {
             ForceMeasure::Component(_) | ForceMeasure::Size => "N",
             ForceMeasure::Power => "W",
+            ForceMeasure::Potential => "J",
         }
     }
 
     /// Returns whether the quantity has a meaning only for one body.
     pub fn needs_body(self) -> bool {
-        self != ForceMeasure::Power
+        !matches!(self, ForceMeasure::Power | ForceMeasure::Potential)
     }
 }

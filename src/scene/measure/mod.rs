@@ -52,6 +52,11 @@ impl MeasureFormula {
         self.asked_unit.as_ref().map_or(1.0, |asked| asked.size)
     }
 
+    /// Returns whether the values are an angle that jumps by a full turn, from 180° to −180° or back.
+    pub fn jumps_by_a_turn(&self) -> bool {
+        matches!(self.single, Some(Measure::Angle(_) | Measure::Joint(_, JointMeasure::Angle)))
+    }
+
     /// Returns the only body that the formula names, as an index in the scene. `None` if there is none, or if there are several.
     pub fn body(&self) -> Option<usize> {
         let bodies = self.inputs.iter().filter_map(|measure| match measure {

@@ -19,13 +19,16 @@ pub enum RunMeasure {
     AngularMomentum(usize),
     /// The energy error so far, relative to the largest kinetic energy so far.
     Drift,
+    /// An energy that has been brought in so far, J. The number is the index in
+    /// [`Accounts::to_array`](crate::physics::Accounts::to_array).
+    Account(usize),
     /// The number of impacts in the whole scene so far.
     Impacts,
 }
 
 impl RunMeasure {
     /// All quantities of the run, each with its name in formulas and its meaning.
-    pub const ALL: [(&'static str, RunMeasure, &'static str); 16] = [
+    pub const ALL: [(&'static str, RunMeasure, &'static str); 21] = [
         ("t", RunMeasure::Time, "the time"),
         ("frame", RunMeasure::Frame, "the number of the frame"),
         ("total", RunMeasure::Energy, "kinetic and potential energy of the whole scene; also `energy`"),
@@ -38,6 +41,11 @@ impl RunMeasure {
         ("ly", RunMeasure::AngularMomentum(1), "their angular momentum about the origin"),
         ("lz", RunMeasure::AngularMomentum(2), "their angular momentum about the origin"),
         ("drift", RunMeasure::Drift, "the energy error so far, as part of the largest kinetic energy so far"),
+        ("work", RunMeasure::Account(0), "the work so far of forces without a potential, such as drag"),
+        ("motors", RunMeasure::Account(1), "the work of motors so far"),
+        ("limits", RunMeasure::Account(2), "the energy so far from limits of joints; negative if lost"),
+        ("impact_energy", RunMeasure::Account(3), "the energy so far from impacts; negative if lost"),
+        ("friction", RunMeasure::Account(4), "the energy so far from friction of contacts; negative if lost"),
         ("impacts", RunMeasure::Impacts, "the number of impacts so far; needs `simulation.contacts`"),
         ("energy", RunMeasure::Energy, "the same as `total`"),
         ("kinetic_energy", RunMeasure::Kinetic, "the same as `kinetic`"),
@@ -48,7 +56,7 @@ impl RunMeasure {
     pub fn unit(self) -> &'static str {
         match self {
             RunMeasure::Time => "s",
-            RunMeasure::Energy | RunMeasure::Kinetic | RunMeasure::Potential => "J",
+            RunMeasure::Energy | RunMeasure::Kinetic | RunMeasure::Potential | RunMeasure::Account(_) => "J",
             RunMeasure::Momentum(_) => "kg·m/s",
             RunMeasure::AngularMomentum(_) => "kg·m²/s",
             RunMeasure::Frame | RunMeasure::Drift | RunMeasure::Impacts => "",

@@ -26,14 +26,14 @@ fn momenta_and_power_are_those_of_mechanics() {
     assert!((values(1)[0] + 80.0).abs() < 1e-12, "{:?}", values(1));
 }
 
-/// Returns the values of the curves of the first plot in each frame of a scene, with the frames.
+/// Returns the values of the curves of all plots in each frame of a scene, with the frames.
 fn curves(text: &str) -> Vec<(Frame, Vec<f64>)> {
     let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));
     let measures = Measures::new(&scene);
     let frames = crate::simulate::Frames::new(&scene).map(Result::unwrap);
     let values = |frame: Frame| {
         let moment = MomentState::now(&frame);
-        let curves = scene.plots[0].curves.iter();
+        let curves = scene.plots.iter().flat_map(|plot| &plot.curves);
         let values = curves.map(|curve| measures.value(&curve.y, &moment)).collect();
         (frame, values)
     };
@@ -209,4 +209,80 @@ fn the_named_forces_add_up_to_the_net_force() {
         assert!((0..4).all(|curve| value(curve).abs() < 1e-9), "{:?}", [0, 1, 2, 3].map(value));
     }
     assert!(largest > 30.0, "{largest} N");
+}
+
+/// The shares of all bodies in the potential energy add up to that of the run, with all kinds of forces and with fixed, guided and absent
+/// bodies. A body that a fixed one pulls has all of the energy: −G M m/r and ½ k x².
+#[test]
+fn the_potential_energies_of_bodies_add_up_to_that_of_the_run() {
+    let text = "simulation = { duration = 1, gravity = [0, -10, 0], integrator = 'rk4' }
+        [body.sun]\nshape.sphere.radius = 0.1\nmass = 50\nfixed = true
+        [body.planet]\nshape.sphere.radius = 0.1\nmass = 2\nlocation = [3, 0, 4]\nvelocity = [0, 2, 0]\nforce = [1, 2, 3]
+        [body.atom]\nshape.sphere.radius = 0.1\nmass = 3\nlocation = ['5 + i', 1, 0]\ncharge = '1 + i'\nrepeat.count = 4
+        [body.guest]\nshape.sphere.radius = 0.1\nmass = 4\nlocation = [0, 7, 1]\ncharge = 2\nstart = 0.3\nend = 0.7
+        [body.guide]\nshape.sphere.radius = 0.1\nmass = 5\nmotion.formula.location = ['t', 2, 't^2']\ncharge = 3
+        [force.pull.gravitation]\nconstant = 0.7\non = ['sun', 'planet']
+        [force.all.gravitation]\nconstant = 0.2\nopening_angle = 0.5
+        [force.charges.coulomb]\nconstant = 2\nsoftening = 0.1
+        [force.atoms.lennard_jones]\non = ['atom']\nepsilon = 1.5\nsigma = 0.9
+        [force.field.lorentz]\nelectric = [1, 2, 3]\nmagnetic = [0, 0, 1]
+        [force.rope.spring]\nbetween = ['planet', [0, 1, 0]]\nstiffness = 7\nrest_length = 0.5
+        [force.tie.spring]\nbetween = ['planet', 'atom[0]']\nstiffness = 5\nrest_length = 0.5
+        [force.law.formula]\non = ['atom']\nforce = ['-3*x', 0, 0]\npotential = '1.5*x^2'
+        [force.push.constant]\non = ['planet']\nforce = [0, 0, 5]
+        [plot.p]\ny = ['sum(atom.potential) + planet.potential + guide.potential', 'sun.potential', 'guest.potential', 'potential']
+        [plot.q]\ny = ['force.pull.potential', 'force.pull.planet.potential', 'force.rope.potential', 'force.tie.planet.potential',
+            'force.tie.potential', 'sum(force.charges.atom.potential)', 'force.atoms.potential', 'sum(force.atoms.atom.potential)']\n";
+    let mut seen = [false; 2];
+    for (frame, values) in curves(text) {
+        let guest = values[2];
+        seen[usize::from(!guest.is_nan())] = true;
+        let sum = values[0] + if guest.is_nan() { 0.0 } else { guest };
+        // The tree sums the forces of far groups up, with an error of some thousandths for each direction of a pair.
+        assert!((sum - values[3]).abs() < 1e-4 * values[3].abs(), "{sum} of {}", values[3]);
+        let planet = frame.body(1).unwrap().location;
+        let stretch = (planet - DVec3::Y).length() - 0.5;
+        let gravitation = -0.7 * 50.0 * 2.0 / planet.length();
+        assert_near(&values[4..7], &[gravitation, gravitation, 3.5 * stretch * stretch]);
+        assert_near(&[values[1], 2.0 * values[7], values[11]], &[0.0, values[8], values[10]]);
+        assert!(values[9] > 1.0, "{values:?}");
+    }
+    assert_eq!(seen, [true; 2]);
+}
+
+/// The angular momenta of two bodies add up to that of the run, also for a tumbling box.
+#[test]
+fn the_angular_momenta_of_bodies_add_up_to_that_of_the_run() {
+    let text = "simulation = { duration = 1, integrator = 'rk4' }
+        [body.a]\nshape.box.size = [1, 2, 3]\nmass = 2\nlocation = [1, 2, 3]\nvelocity = [3, 4, 1]\nangular_velocity = [1, 5, 2]
+        [body.b]\nshape.sphere.radius = 0.5\nmass = 3\nlocation = [-4, 0, 1]\nvelocity = [0, 1, 2]\nangular_velocity = [0, 2, 0]
+        [plot.p]\ny = ['a.lx + b.lx', 'a.ly + b.ly', 'a.lz + b.lz', 'lx', 'ly', 'lz']
+        [plot.q]\ny = ['a.angular_momentum', 'sqrt(a.lx^2 + a.ly^2 + a.lz^2)', 'b.ly']\n";
+    for (_, values) in curves(text) {
+        assert_near(&values[..3], &values[3..6]);
+        // The angular momentum of the ball: (z vx − x vz) m + ⅖ m r² ω = 3 · 8 + ⅖ · 3 · 0.25 · 2.
+        assert_near(&values[6..], &[values[7], values[7], 24.6]);
+    }
+}
+
+/// A block of 2 kg lies on the ground and is pulled with 3 N, less than friction can hold: the ground carries 20 N and holds with 3 N. The
+/// accounts are those of the balance: a block that slides to rest from 2 m/s has lost its ½ m v² to friction.
+#[test]
+fn contact_forces_and_accounts_are_those_of_statics_and_of_the_balance() {
+    let text = "simulation = { duration = 1, gravity = [0, -10, 0], contacts = 'event-driven' }
+        [environment]\nground.height = 0
+        [body.block]\nshape.box.size = [1, 1, 1]\nmass = 2\nlocation = [0, 0.5, 0]\nforce = [3, 0, 0]\nfriction = 0.4
+        [body.sled]\nshape.box.size = [1, 1, 1]\nmass = 3\nlocation = [0, 0.5, 5]\nvelocity = [2, 0, 0]\nfriction = 0.4
+        [body.ball]\nshape.sphere.radius = 0.1\nlocation = [0, 90, 0]
+        [plot.p]\ny = ['block.normal_force', 'block.friction_force', 'ball.normal_force', 'friction', 'motors', 'limits', 'work',
+            'impact_energy']\n";
+    let frames = curves(text);
+    for (frame, values) in &frames[1..] {
+        assert!((values[0] - 20.0).abs() < 1e-6 && (values[1] - 3.0).abs() < 1e-6, "{values:?}");
+        let accounts = frame.balance.accounts;
+        let expected = [0.0, accounts.friction, 0.0, 0.0, accounts.work, accounts.impacts];
+        assert_near(&values[2..], &expected);
+    }
+    let lost = frames.last().unwrap().1[3];
+    assert!((lost + 6.0).abs() < 1e-3, "{lost} J");
 }

@@ -9,6 +9,9 @@ use crate::simulate::{Measures, MomentState};
 /// The number of groups of frames. A run with at most this many frames keeps all points.
 const MAX_GROUPS: usize = 600;
 
+/// Half a turn, degrees.
+const HALF_TURN: f64 = 180.0;
+
 /// A point of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvePoint {
@@ -36,6 +39,10 @@ pub(super) struct Curves<'a> {
     stride: usize,
     /// The curves of all plots, in their order.
     curves: Vec<Thinned>,
+    /// The last value of each curve.
+    last: Vec<f64>,
+    /// The time of these values, s.
+    last_time: f64,
     left_out: Vec<LeftOut>,
 }
 
@@ -48,19 +55,27 @@ impl<'a> Curves<'a> {
             measures: Measures::new(scene),
             stride: scene.simulation.timeline.frames().div_ceil(MAX_GROUPS).max(1),
             curves: vec![Thinned::default(); count],
+            last: vec![f64::NAN; count],
+            last_time: 0.0,
             left_out: vec![LeftOut::default(); count],
         }
     }
 
     /// Adds the points of the next frame.
     pub(super) fn see(&mut self, moment: &MomentState<'_>) {
-        let mut curves = self.curves.iter_mut().zip(&mut self.left_out);
+        let last_time = std::mem::replace(&mut self.last_time, moment.time());
+        let mut curves = self.curves.iter_mut().zip(&mut self.left_out).zip(&mut self.last);
         for plot in self.plots {
             let x = self.measures.value(&plot.x, moment);
             // The start of the run has no place on a logarithmic axis of the time. No curve misses it.
             let is_counted = x > 0.0 || !(plot.is_logarithmic[0] && plot.is_over_time());
-            for (curve, (points, left_out)) in plot.curves.iter().zip(&mut curves) {
+            for (curve, ((points, left_out), last)) in plot.curves.iter().zip(&mut curves) {
                 let at = [x, self.measures.value(&curve.y, moment)];
+                if curve.y.jumps_by_a_turn() && (at[1] - *last).abs() > HALF_TURN / curve.y.unit_size() {
+                    // The angle goes on at the other end of its range. A line between the two would show values that it never has.
+                    points.gap.get_or_insert(0.5 * (last_time + moment.time()));
+                }
+                *last = at[1];
                 let known = Some(at).filter(|at| at.iter().all(|value| value.is_finite()));
                 let at = known.filter(|at| plot.has_place(*at));
                 left_out.of += usize::from(known.is_some() && is_counted);

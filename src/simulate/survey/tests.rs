@@ -223,3 +223,22 @@ fn one_of_many_bodies_that_flies_away_counts_where_it_starts() {
     // An arrow may reach beyond the box around the other bodies.
     assert_eq!(surveyed(&scene("arrows.velocity = true")).without_strays, None);
 }
+
+/// The angle of a wheel at 1 turn/s goes from 180° to −180° once in a turn. Its curve has a gap there, and no line across.
+#[test]
+fn the_curve_of_an_angle_has_gaps_where_it_jumps_by_a_turn() {
+    let survey = surveyed(
+        "simulation = { duration = 3, frame_rate = 50, integrator = 'rk4' }
+        [body.wheel]\nshape.sphere.radius = 0.5\nmotion.formula.orientation = [0, 0, '360*t']
+        [angle.phi]\nat = [0, 0, 0]\nfrom = [1, 0, 0]\nto = { body = 'wheel', at = [1, 0, 0] }\naxis = [0, 0, 1]
+        [plot.p]\ny = ['angle.phi', '0*angle.phi']",
+    );
+    let [phi, zero] = &survey.curves[..] else { panic!("two curves") };
+    let gaps = |curve: &[CurvePoint]| curve.iter().filter(|point| point.at.is_none()).count();
+    assert_eq!([gaps(phi), gaps(zero)], [3, 0]);
+    for pair in phi.windows(2) {
+        if let [Some([_, from]), Some([_, to])] = [pair[0].at, pair[1].at] {
+            assert!((to - from - 7.2).abs() < 1e-9, "{from} to {to}");
+        }
+    }
+}

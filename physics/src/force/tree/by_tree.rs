@@ -65,6 +65,49 @@ impl ByTree<'_> {
         self.pairs.constant * total
     }
 
+    /// Adds the share of each body in the potential energy to `shares`, J.
+    pub(in super::super) fn share_potential(&self, moment: &Moment, shares: &mut [f64]) {
+        let model = moment.model;
+        // The bodies that forces move, those with given motions, and fixed ones.
+        let by_kind = |bodies: &[BodyId]| -> [Vec<BodyId>; 3] {
+            let mut kinds = [Vec::new(), Vec::new(), Vec::new()];
+            for body in model.present(bodies).iter() {
+                let (can_move, movable) = (model.can_move(body.index()), model.movable()[body.index()]);
+                kinds[if can_move { 0 } else { 2 - usize::from(movable) }].push(*body);
+            }
+            kinds
+        };
+        // Adds a part of the potential of `others` (of the bodies themselves for `None`) to the shares of `bodies`.
+        let mut add = |part: f64, bodies: &[BodyId], others: Option<&[BodyId]>| {
+            let others = others.map(|others| self.tree(others, moment));
+            let tree = self.tree(bodies, moment);
+            let sums = tree.sums::<Potential>(others.as_ref(), self.pairs.softening, &|_| {});
+            for (body, sum) in bodies.iter().map(|body| body.index()).zip(sums) {
+                shares[body] += part * self.pairs.constant * self.pairs.strength[body] * sum;
+            }
+        };
+        let [free, guided, fixed] = by_kind(self.pairs.bodies);
+        match self.pairs.against {
+            None => {
+                add(0.5, &free, None);
+                add(0.5, &guided, None);
+                add(1.0, &free, Some(&[guided.as_slice(), &fixed].concat()));
+                add(1.0, &guided, Some(&fixed));
+            }
+            Some(against) => {
+                let [their_free, their_guided, their_fixed] = by_kind(against);
+                add(0.5, &free, Some(&their_free));
+                add(0.5, &their_free, Some(&free));
+                add(1.0, &free, Some(&[their_guided.as_slice(), &their_fixed].concat()));
+                add(1.0, &their_free, Some(&[guided.as_slice(), &fixed].concat()));
+                add(0.5, &guided, Some(&their_guided));
+                add(0.5, &their_guided, Some(&guided));
+                add(1.0, &guided, Some(&their_fixed));
+                add(1.0, &their_guided, Some(&fixed));
+            }
+        }
+    }
+
     fn tree(&self, bodies: &[BodyId], moment: &Moment) -> Tree {
         let body = |body: &BodyId| {
             let i = body.index();

@@ -47,10 +47,16 @@ pub(super) const TABLES_THAT_DRAW: &[&str] = &[
 
 /// The keys that only draw, by the nouns of their tables. These tables also have keys that act on the run.
 pub(super) const KEYS_THAT_DRAW: &[(&str, &[&str])] = &[
+    ("a Coulomb force", &["arrow"]),
+    ("a Lennard-Jones force", &["arrow"]),
+    ("a Lorentz force", &["arrow"]),
     ("a ball joint", &["look", "arrows"]),
     ("a body", &["material", "look", "axes", "trail"]),
     ("a body's arrows", &["velocity", "acceleration", "force", "weight"]),
+    ("a constant force", &["arrow"]),
+    ("a drag", &["arrow"]),
     ("a fixed joint", &["look", "arrows"]),
+    ("a force by formulas", &["arrow"]),
     ("a gear", &["arrows"]),
     ("a hinge", &["look", "arrows"]),
     ("a pulley", &["look", "arrows"]),
@@ -77,9 +83,11 @@ pub(super) const KEYS_THAT_DRAW: &[(&str, &[&str])] = &[
     ),
     ("a shape in SDL", &["object"]),
     ("a slider", &["look", "arrows"]),
-    ("a spring", &["line", "coil"]),
-    ("buoyancy", &["surface"]),
+    ("a spring", &["line", "coil", "arrow"]),
+    ("buoyancy", &["surface", "arrow"]),
     ("ghosts", &["arrows"]),
+    ("gravitation", &["arrow"]),
+    ("magnetic dipoles", &["arrow"]),
     (
         "the camera",
         &[
@@ -98,5 +106,6 @@ pub(super) const KEYS_THAT_DRAW: &[(&str, &[&str])] = &[
     ),
     ("the defaults", &["material", "light"]),
     ("the environment", &["sky", "fog"]),
+    ("the gravity of a bulge", &["arrow"]),
     ("the ground", &["tile"]),
 ];

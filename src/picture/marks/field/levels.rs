@@ -16,7 +16,7 @@ const EXTREME_PART: f64 = 0.06;
 const USUAL_NUMBER_OF_LEVELS: f64 = 14.0;
 /// The part of the points whose potential is lower, and the part whose potential is higher, than all levels. The lines of higher potentials
 /// could not be told apart.
-const PART_BEYOND_LEVELS: f64 = 0.012;
+const PART_BEYOND_LEVELS: f64 = 0.03;
 
 /// The levels of a potential: multiples of a spacing within bounds, J.
 #[derive(Clone, Copy, Debug, Default)]

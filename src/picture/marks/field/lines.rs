@@ -19,6 +19,10 @@ const MAX_POSITION: f64 = 1.6;
 const BEGIN_DISTANCE: f64 = 1.02;
 /// The smallest radius at which a line begins and ends, relative to half the width of the region.
 const MIN_RADIUS: f64 = 0.01;
+/// The distance from a magnet at which its innermost line crosses the plane across its moment, in radii of the body.
+const NEAREST_LINE_OF_MAGNET: f64 = 1.15;
+/// The part of a magnet's radius within which lines are not followed.
+const HIDDEN_PART_OF_MAGNET: f64 = 0.15;
 /// The length of the arrow in the middle of a line, relative to half the width of the region.
 const ARROW_LENGTH: f64 = 0.035;
 
@@ -115,28 +119,50 @@ impl FieldMark {
         let begin = |k: u32| middle + across * (reach * (2.0 * (f64::from(k) + 0.5) / count - 1.0));
         let mut paths = Vec::new();
         for seed in (0..self.drawn.count).map(begin) {
-            let [before, after] = [-1.0, 1.0].map(|sign| self.path(sampler, &[], seed, sign));
-            let (Some(mut before), Some(after)) = (before, after) else { continue };
-            before.points.reverse();
-            before.points.extend_from_slice(&after.points[1..]);
-            paths.push(before);
+            paths.extend(self.both_ways(sampler, &[], seed));
         }
         paths
     }
 
-    /// The closed lines of magnets: each begins where the field leaves the body.
+    /// The closed lines of magnets, as many as their moments ask for, half of them on each side. On the line through a magnet across its moment,
+    /// the flux outside of a distance r is inverse to r. So lines that cross there at r, r/2, r/3, … have equal fluxes between them.
     fn around_magnets(&self, sampler: &mut FieldSampler, sources: &[Source]) -> Vec<Path> {
+        // The body hides what is inside of it.
+        let inner = |source: &Source| Source { radius: source.radius * HIDDEN_PART_OF_MAGNET, ..*source };
+        let inner: Vec<Source> = sources.iter().map(inner).collect();
+        let moments: Vec<DVec3> = sources.iter().map(|source| self.moment(sampler, source)).collect();
+        let strongest = moments.iter().map(|moment| moment.length()).fold(0.0, f64::max);
         let mut paths = Vec::new();
-        for source in sources {
-            for k in 0..self.drawn.count {
-                let angle = TAU * (f64::from(k) + 0.5) / f64::from(self.drawn.count);
-                let seed = self.seed(source, angle);
-                if sampler.at(seed).dot(seed - source.at) > 0.0 {
-                    paths.extend(self.path(sampler, sources, seed, 1.0));
+        for (source, moment) in sources.iter().zip(moments) {
+            let Some(along) = moment.try_normalize() else { continue };
+            let across = self.region.axes[0].cross(self.region.axes[1]).cross(along);
+            let count = libm::round(f64::from(self.drawn.count) / 2.0 * moment.length() / strongest);
+            let nearest = NEAREST_LINE_OF_MAGNET * self.reach(source);
+            for k in 1..=number_of(count) {
+                let way = across * (nearest * count / f64::from(k));
+                for seed in [source.at + way, source.at - way] {
+                    paths.extend(self.both_ways(sampler, &inner, seed));
                 }
             }
         }
         paths
+    }
+
+    /// The part of a magnet's moment in the plane, in units of the field times m³. Near a dipole with the moment m, the field at d = r n is
+    /// (3 (m·n) n − m)/r³, so its part along n is 2 (m·n)/r³.
+    fn moment(&self, sampler: &mut FieldSampler, source: &Source) -> DVec3 {
+        let distance = HIDDEN_PART_OF_MAGNET * self.reach(source);
+        let part = |axis: DVec3| axis * sampler.at(source.at + axis * distance).dot(axis);
+        self.region.axes.map(part).into_iter().sum::<DVec3>() * (distance * distance * distance / 2.0)
+    }
+
+    /// The line through a point, followed in both directions.
+    fn both_ways(&self, sampler: &mut FieldSampler, sources: &[Source], seed: DVec3) -> Option<Path> {
+        let [before, after] = [-1.0, 1.0].map(|sign| self.path(sampler, sources, seed, sign));
+        let (mut before, after) = (before?, after?);
+        before.points.reverse();
+        before.points.extend_from_slice(&after.points[1..]);
+        Some(Path { points: before.points, end: after.end })
     }
 
     /// The point at which a line of a source begins, at an angle in the plane.

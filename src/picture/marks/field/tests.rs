@@ -101,3 +101,28 @@ fn arrows_show_direction_and_strength() {
     let (lines, arrows) = drawn(&format!("{uniform}[field.b]\nforce = 'f'\nmagnetic = true"));
     assert!(arrows.is_empty() && lines.len() > 500, "{} lines of circles", lines.len());
 }
+
+/// Along each line of a dipole, sin²θ/r is constant, where θ is the angle to its moment. The lines lie symmetrically about the magnet. Source:
+/// D. J. Griffiths, *Introduction to Electrodynamics*, § 3.4.
+#[test]
+fn lines_of_a_magnet_are_closed_and_symmetric() {
+    let magnet = "
+        simulation.duration = 0\nenvironment.ground = false
+        [body.magnet]\nshape.box.size = [0.2, 0.05, 0.05]\nmagnetic_moment = [1, 0, 0]\nfixed = true
+        [body.needle]\nshape.sphere.radius = 0.01\nmagnetic_moment = [0, 1e-9, 0]\nlocation = [0.3, 0.3, 0]
+        [force.m.dipoles]\n[field.b]\nforce = 'm'\nshow = 'lines'\ncount = 12
+        [camera]\nlocation = [0, 0, 1.4]\nlook_at = [0, 0, 0]\n";
+    let (lines, arrows) = drawn(magnet);
+    let flux = |point: DVec3| (1.0 - point.x * point.x / point.length_squared()) / point.length();
+    let far = |point: DVec3| point.length() > 0.05;
+    let change = lines.iter().filter(|line| line.iter().all(|end| far(*end)));
+    let change = change.map(|[from, to]| (flux(*from) / flux(*to) - 1.0).abs()).fold(0.0, f64::max);
+    assert!(lines.len() > 300 && change < 1e-3, "{} lines, {change}", lines.len());
+    assert!((10..=12).contains(&arrows.len()), "{} arrows", arrows.len());
+    for line in &lines {
+        let mirrored = |point: DVec3| DVec3::new(-point.x, point.y, point.z);
+        let nearest =
+            |point: DVec3| lines.iter().map(|[_, to]| to.distance(point)).fold(f64::INFINITY, f64::min);
+        assert!(line[0].length() < 0.02 || nearest(mirrored(line[0])) < 0.01, "{line:?}");
+    }
+}

@@ -8,11 +8,12 @@ mod spring;
 
 use std::collections::HashSet;
 
-use super::Context;
 use super::view::View;
+use super::{Context, showing};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{ConstantForce, Coulomb, Drag, Gravitation, LennardJones, Lorentz};
 use crate::scene::grammar::forces::{constant, coulomb, drag, force, gravitation, lennard_jones, lorentz};
+use crate::scene::grammar::marks::field;
 use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::{Any, Key, KeySpec};
 use crate::scene::source::Node;
@@ -28,6 +29,8 @@ struct Reader<'a, 'c> {
     simulation: &'a SimulationSettings,
     /// Whether the force acts on the particles of an emitter.
     has_particles: bool,
+    /// Whether the scene draws the field of the force, so that the force shows something without acting on a body.
+    is_field_drawn: bool,
     /// The warning text that says why the force does not act on a body, such as "it has no charge".
     lack: &'static str,
     /// Whether this kind of force has the key `softening`.
@@ -49,6 +52,8 @@ pub(super) fn read(
     context: &mut Context<'_>,
 ) -> Vec<Force> {
     let tables = root.named(&scene::FORCE);
+    let drawn_fields: Vec<&str> =
+        root.named(&scene::FIELD).iter().filter_map(|(.., view)| view.get(&field::FORCE)).collect();
     let read = |(name, span, view): (&str, Span, View<'_>)| {
         let before = context.diagnostics.len();
         let mut reader = Reader {
@@ -58,6 +63,7 @@ pub(super) fn read(
             emitters,
             simulation,
             has_particles: false,
+            is_field_drawn: drawn_fields.contains(&name),
             lack: NO_CHARGE,
             softens: true,
             reported: HashSet::new(),
@@ -65,7 +71,9 @@ pub(super) fn read(
         };
         let emitters = reader.emitters_of(&view);
         reader.has_particles = !emitters.is_empty();
-        let kind = chosen(&view).and_then(|(kind, view)| (kind.read)(&mut reader, &view));
+        let chosen = chosen(&view);
+        let arrow = chosen.as_ref().and_then(|(_, view)| showing::arrow(view, &constant::ARROW.spec));
+        let kind = chosen.and_then(|(kind, view)| (kind.read)(&mut reader, &view));
         if context.wrong_forces.contains(name) {
             // Drop the warning that the force has no effect: the key with the error may be the key that the warning calls missing.
             let mut said = context.diagnostics.split_off(before);
@@ -74,7 +82,7 @@ pub(super) fn read(
         }
         context.once(before, name, span);
         let kind = kind?;
-        Some(Force { name: name.to_owned(), kind, emitters })
+        Some(Force { name: name.to_owned(), kind, arrow, emitters })
     };
     tables.into_iter().filter_map(read).collect()
 }

@@ -109,9 +109,10 @@ impl Reader<'_, '_> {
         self.report(Code::NamedTwice, span, || error().at(span, "the second time"));
     }
 
-    /// Warns that the force acts on no body. Does not warn if the scene has no bodies at all, or if the force acts on particles.
+    /// Warns that the force acts on no body. Does not warn if the scene has no bodies at all, if the force acts on particles, or if its
+    /// field is drawn.
     pub(super) fn acts_on_nothing(&mut self, why: &str) {
-        if !self.bodies.is_empty() && !self.has_particles {
+        if !self.bodies.is_empty() && !self.has_particles && !self.is_field_drawn {
             let name = self.name;
             self.no_effect(|| format!("the force `{name}` acts on no body"), self.span, why);
         }

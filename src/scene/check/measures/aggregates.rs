@@ -151,7 +151,7 @@ impl Reader<'_, '_, '_> {
     }
 
     /// Returns whether a formula names the measure of several bodies, such as `gas.speed` or `brick[*,0].x`.
-    fn names_several(&self, formula: &str) -> bool {
+    pub(in crate::scene::check) fn names_several(&self, formula: &str) -> bool {
         let mut dots = formula.match_indices('.');
         dots.any(|(at, _)| {
             let dotted = dotted_at(formula, at);

@@ -6,7 +6,7 @@ use super::dotted::body_name;
 use super::{Reader, words};
 use crate::diagnostic::{Code, Diagnostic, nearest};
 use crate::scene::grammar::scene::{scene, simulation};
-use crate::scene::grammar::{Collection, quoted};
+use crate::scene::grammar::{Any, Collection, Key, quoted};
 use crate::scene::{BodyMeasure, Measure, Subject};
 
 /// The word between two bodies whose distance is meant.
@@ -28,6 +28,7 @@ impl Reader<'_, '_, '_> {
         }
         let names = self.things.bodies.iter().map(|body| &*body.name);
         let near = nearest(name, names.take(1000).chain(self.context.groups.originals()));
+        let near = self.of_another_kind(name).or(near.map(str::to_owned));
         let label = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
         let is_repeated = self.context.groups.several(name).is_some();
         let mut error = Diagnostic::error(Code::UnknownName, format!("there is no body `{name}`"));
@@ -45,6 +46,13 @@ impl Reader<'_, '_, '_> {
         }
         self.report(error, begin..begin + name.len(), &label);
         None
+    }
+
+    /// Returns the name with its kind, such as `joint.string`, if a thing of another kind than a body has it.
+    fn of_another_kind(&self, name: &str) -> Option<String> {
+        let kinds = [&scene::JOINT, &scene::FORCE, &scene::ANGLE, &scene::DISTANCE, &scene::AREA];
+        let has = |kind: &&&Key<Any>| self.root.named(kind).into_iter().any(|(known, ..)| known == name);
+        kinds.iter().find(has).map(|kind| format!("{}.{name}", kind.spec))
     }
 
     /// Returns a measure of a body, and the end of its name in the formula, which begins at the byte `start` of the text. The name of the
@@ -103,29 +111,30 @@ impl Reader<'_, '_, '_> {
             });
             return None;
         };
-        if known == BodyMeasure::Impacts {
+        if known.needs_contacts() {
             self.needs_contacts(start + begin..start + end)?;
-            if let Some(other) = other {
-                let Subject::One(number) = subject else {
-                    let error =
-                        Diagnostic::error(Code::LabelSyntax, "the impacts of two bodies have one value");
-                    let range = start + begin..start + end + 1 + other.len();
-                    self.report(error, range, "needs a single body before `impacts`");
-                    return None;
-                };
-                let measure = self.of_pair(number, other, start + end + 1)?;
-                return Some((measure, end + 1 + other.len()));
-            }
+        }
+        if let (BodyMeasure::Impacts, Some(other)) = (known, other) {
+            let Subject::One(number) = subject else {
+                let error = Diagnostic::error(Code::LabelSyntax, "the impacts of two bodies have one value");
+                let range = start + begin..start + end + 1 + other.len();
+                self.report(error, range, "needs a single body before `impacts`");
+                return None;
+            };
+            let measure = self.of_pair(number, other, start + end + 1)?;
+            return Some((measure, end + 1 + other.len()));
         }
         Some((Measure::Body(subject, known), end))
     }
 
-    /// Reports the use of `impacts` in a scene without contacts, in which no impacts are detected.
+    /// Reports the use of a measure such as `impacts` in a scene without contacts.
     pub(super) fn needs_contacts(&mut self, range: Range<usize>) -> Option<()> {
         if self.root.table(&scene::SIMULATION).has(&simulation::CONTACTS) {
             return Some(());
         }
-        let error = Diagnostic::error(Code::NoContacts, "`impacts` needs `simulation.contacts`")
+        let name = &self.text[range.clone()];
+        let measure = name.rsplit('.').next().unwrap_or(name);
+        let error = Diagnostic::error(Code::NoContacts, format!("`{measure}` needs `simulation.contacts`"))
             .help("write `contacts = \"event-driven\"` in [simulation]");
         self.report(error, range, "without it, bodies pass through each other");
         None

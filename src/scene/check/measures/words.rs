@@ -25,6 +25,10 @@ pub(super) fn of_body(word: &str, axis: Option<&str>) -> Option<String> {
             "f" => "force",
             "m" => "mass",
             "p" => "momentum",
+            "pe" | "potential_energy" | "epot" => "potential",
+            "l" => "angular_momentum",
+            "normal" => "normal_force",
+            "friction" => "friction_force",
             _ => return None,
         }
         .to_owned(),
@@ -69,6 +73,7 @@ pub(super) fn of_force(word: &str) -> Option<&'static str> {
         "fz" | "force_z" => "z",
         "force" | "f" | "magnitude" | "length" | "norm" | "abs" => "size",
         "work" | "p" => "power",
+        "energy" | "pe" | "epot" => "potential",
         _ => return None,
     })
 }
