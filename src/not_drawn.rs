@@ -15,6 +15,7 @@ pub(crate) fn warning(missing: &NotDrawn) -> Diagnostic {
             let key = if matches!(missing.why, Reason::Untouched) { "" } else { ".scale" };
             (format!("the arrow for the {words} of `{name}`"), format!("arrows.{}{key}", quantity.name()))
         }
+        RequestedItem::ForceArrow => (format!("the arrow of the force `{name}`"), "arrow.scale".to_owned()),
         RequestedItem::Axes => (format!("the axes of `{name}`"), "axes.length".to_owned()),
         RequestedItem::Trail => (format!("the trail of `{name}`"), "trail.width".to_owned()),
         RequestedItem::Ghosts => (format!("the ghosts of `{name}`"), "ghosts".to_owned()),
@@ -30,11 +31,11 @@ pub(crate) fn warning(missing: &NotDrawn) -> Diagnostic {
     };
     let (message, fit) = match *why {
         Reason::TooSmall { pixels, fit } => {
-            let size = if matches!(missing.what, RequestedItem::Arrow(_) | RequestedItem::Axes) {
-                "long"
-            } else {
-                "wide"
-            };
+            let is_long = matches!(
+                missing.what,
+                RequestedItem::Arrow(_) | RequestedItem::ForceArrow | RequestedItem::Axes
+            );
+            let size = if is_long { "long" } else { "wide" };
             let pixels = rounded(pixels);
             (format!("{what} {are} not seen{others}: at most {pixels} pixels {size}"), Some(fit))
         }
@@ -105,18 +106,22 @@ pub(crate) fn of_plot(scene: &Scene, unseen: &UnseenPlot) -> Diagnostic {
                 .at(scene.places.plots[other].name, "this one is covered")
                 .help(help)
         }
-        UnseenPlot::OutOfRange { plot: of, curve: number, values: [low, high], fit } => {
-            let unit = scene.plots[of].curves[number].y.unit().unwrap_or_default();
+        UnseenPlot::OutOfRange { axis, plot: of, curve: number, values: [low, high], fit } => {
+            let (plot, places) = (&scene.plots[of], &scene.places.plots[of]);
+            let (formula, key, range) = match axis {
+                0 => (&plot.x, "x_range", places.x_range),
+                _ => (&plot.curves[number].y, "range", places.range),
+            };
+            let unit = formula.unit().unwrap_or_default();
             let values = match (rounded(low), rounded(high)) {
                 (low, high) if low == high => format!("all values are {low} {unit}"),
                 (low, high) => format!("its values are from {low} to {high} {unit}"),
             };
-            let message = format!("{} is not drawn: its values are outside of `range`", curve(of, number));
+            let message = format!("{} is not drawn: its values are outside of `{key}`", curve(of, number));
             let warning = warning(message).at(curve_at(of, number), values.trim_end());
-            let range = scene.places.plots[of].range;
             let warning = range.into_iter().fold(warning, |it, at| it.at(at, "this contains none of them"));
             let [low, high] = fit.map(rounded);
-            warning.help(format!("write `range = [{low}, {high}]`, or leave `range` out"))
+            warning.help(format!("write `{key} = [{low}, {high}]`, or leave `{key}` out"))
         }
         UnseenPlot::NotPositive { plot: of, curve: number, left_out } => {
             let values = match (left_out.frames, left_out.of) {

@@ -102,7 +102,7 @@ fn pale(material: &MaterialText, dark: bool, identifiers: &mut Identifiers) -> O
         identifier: identifiers.add("Ghost", &material.name),
         color: Some(color),
         on_plane: false,
-        // A ghost is opaque where the body follows a value: this value is not kept.
+        // A ghost does not know the value that the transparency or the glow of its body follows. So it is opaque, and does not glow.
         transparency: material.transparency.clone().filter(|it| it != TRANSPARENCY_IDENTIFIER),
         glow: material.glow.clone().filter(|glow| glow != GLOW_IDENTIFIER),
         parameters: material.parameters.iter().copied().filter(|it| *it == SHADE_IDENTIFIER).collect(),

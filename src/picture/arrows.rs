@@ -16,7 +16,7 @@ use crate::simulate::{Frame, Ghost, JointEnd, Load, Measures, MomentState, axis,
 
 /// The colors of arrows on light backgrounds, in the order of [`Quantity::color`]. They are easy to tell apart, and rarely used for
 /// bodies.
-const COLORS: [Color; Quantity::COLORS] = [
+const COLORS: [Color; Quantity::COLOR_COUNT] = [
     Color([0.03, 0.30, 0.70]),
     Color([0.93, 0.50, 0.04]),
     Color([0.76, 0.08, 0.48]),
@@ -27,7 +27,7 @@ const COLORS: [Color; Quantity::COLORS] = [
     Color([0.0, 0.52, 0.58]),
 ];
 /// The colors of arrows on dark backgrounds, in the order of [`Quantity::color`].
-const LIGHT_COLORS: [Color; Quantity::COLORS] = [
+const LIGHT_COLORS: [Color; Quantity::COLOR_COUNT] = [
     Color([0.35, 0.72, 1.0]),
     Color([1.0, 0.70, 0.25]),
     Color([1.0, 0.45, 0.80]),
@@ -67,7 +67,7 @@ pub(super) const HEAD: f64 = 3.2;
 const NOTHING: f64 = 5e-5;
 
 /// The drawn length of one unit of each quantity, m, for arrows without a given scale.
-pub(super) type Scales = [f64; Quantity::COUNT];
+pub(super) type Scales = [f64; Quantity::SCALE_COUNT];
 
 /// The arrows and coordinate axes that a scene requests.
 #[derive(Clone, Debug)]
@@ -84,9 +84,9 @@ pub(super) struct Arrows {
     force_names: BTreeMap<usize, String>,
     measures: Arc<Measures>,
     /// The scene and the colors of arrows. `None` if the scene shows no weights or contact forces.
-    of_loads: Option<(Box<Scene>, [Color; Quantity::COLORS])>,
+    of_loads: Option<(Box<Scene>, [Color; Quantity::COLOR_COUNT])>,
     /// The length of the longest vector of each quantity in the run, in the unit of the quantity. Only arrows without a given scale count.
-    longest: [f64; Quantity::COUNT],
+    longest: [f64; Quantity::SCALE_COUNT],
 }
 
 /// A requested arrow of a joint.
@@ -127,12 +127,12 @@ pub(super) struct ArrowSizes {
 
 /// Computes the drawn length of one unit of each quantity, m, for a width in view of `view` (m). The longest vector of each quantity gets
 /// the length [`LONGEST`].
-fn scales(longest: [f64; Quantity::COUNT], view: f64) -> Scales {
+fn scales(longest: [f64; Quantity::SCALE_COUNT], view: f64) -> Scales {
     longest.map(|longest| if longest > 0.0 { LONGEST * view / longest } else { 1.0 })
 }
 
 /// Computes drawn lengths as [`scales`] does, and rounds them down, so that small edits of a scene do not change them.
-pub(super) fn round_scales(longest: [f64; Quantity::COUNT], view: f64) -> Scales {
+pub(super) fn round_scales(longest: [f64; Quantity::SCALE_COUNT], view: f64) -> Scales {
     scales(longest, view).map(round_down)
 }
 
@@ -158,7 +158,11 @@ impl Arrow {
 
 impl Arrows {
     /// Plans the arrows of a scene. `measures` are those of the scene.
-    pub(super) fn new(scene: &Scene, longest: [f64; Quantity::COUNT], measures: Arc<Measures>) -> Arrows {
+    pub(super) fn new(
+        scene: &Scene,
+        longest: [f64; Quantity::SCALE_COUNT],
+        measures: Arc<Measures>,
+    ) -> Arrows {
         let of_forces: Vec<(usize, usize)> = scene.arrows_of_forces().collect();
         let shows = |(number, body): &(usize, &Body)| {
             body.showing.axes.is_some()

@@ -12,11 +12,11 @@ use crate::simulate::{Frame, Ghost, Measures, MomentState, Survey, is_true};
 pub struct Looks {
     /// The color of each body, as an index into the [colors](super::Plan::mapped_colors) of its map. Bodies without a map have 0.
     pub colors: Vec<u16>,
-    /// The transparency of each body, in few steps. Bodies whose transparency stays have 0.
+    /// The transparency of each body, one of a few numbers. Bodies whose transparency never changes have 0.
     pub transparency: Vec<f64>,
-    /// The glow of each body, in few steps. Bodies whose glow stays have 0.
+    /// The glow of each body, one of a few numbers. Bodies whose glow never changes have 0.
     pub glow: Vec<f64>,
-    /// The size of each body, relative to its largest drawn size. Bodies whose size stays have 1.
+    /// The size of each body, relative to its largest drawn size. Bodies whose size never changes have 1.
     pub scale: Vec<f64>,
     /// Whether each body is drawn.
     pub is_drawn: Vec<bool>,

@@ -31,6 +31,8 @@ pub struct NotDrawn {
 pub enum RequestedItem {
     /// An arrow of a body.
     Arrow(Quantity),
+    /// The arrows of a force.
+    ForceArrow,
     /// The coordinate axes of a body.
     Axes,
     /// The trail of a body.
@@ -130,6 +132,18 @@ pub(super) fn find(
             _ => continue,
         };
         found.add(RequestedItem::Arrow(arrow.quantity), &body.name, why);
+    }
+    for (number, longest) in &survey.requested.forces {
+        let force = &scene.forces[*number];
+        let scale = force.arrow.and_then(|arrow| arrow.scale);
+        if let Some(scale) = scale.filter(|scale| *longest > 0.0 && longest * scale < SHORTEST * pixel) {
+            let fit = round_down(LONGEST * view / longest);
+            found.add(
+                RequestedItem::ForceArrow,
+                &force.name,
+                Reason::TooSmall { pixels: longest * scale / pixel, fit },
+            );
+        }
     }
     for body in &scene.bodies {
         let Some(length) = body.showing.axes.and_then(|axes| axes.length) else { continue };

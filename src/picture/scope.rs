@@ -45,7 +45,7 @@ impl Scope {
     /// Chooses the part of a run that a camera of a scene frames.
     pub(super) fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Scope {
         let Some((all, starts)) = survey.spans.split_last() else {
-            let arrows: [Reach; Quantity::COUNT] = Default::default();
+            let arrows: [Reach; Quantity::SCALE_COUNT] = Default::default();
             let span = Span { until: 0.0, bounds: NOTHING, moving: NOTHING, seen: NOTHING, arrows };
             return Scope { camera: camera.clone(), span, whole: NOTHING, part: Part::Whole };
         };

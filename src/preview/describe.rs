@@ -103,7 +103,7 @@ struct Surface {
     second: Option<Color3>,
     /// The color of ghosts (earlier poses) of bodies with this material, linear.
     pale: Color3,
-    /// The index of the color map that gives each body its own color. `None` if the color stays.
+    /// The index of the color map that gives each body its own color. `None` if the color never changes.
     map: Option<usize>,
     /// True if the material has a transparency, fixed or following a value.
     transparent: bool,

@@ -1,5 +1,6 @@
 //! Colors that follow a quantity, such as the speed of each body.
 
+use super::value_map::part_of;
 use super::{Color, Corner, MeasureFormula};
 
 /// A color map: it gives each body of its materials a color by the value of a quantity of this body.
@@ -27,12 +28,9 @@ impl ColorMap {
     /// color of its nearer end. `None` if the value is not finite.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the index is from 0 to 255")]
     #[allow(clippy::cast_precision_loss, reason = "there are few colors")]
-    pub fn color_of(value: f64, [low, high]: [f64; 2]) -> Option<usize> {
-        let part = (value - low) / (high - low);
-        let part = if high > low { part } else { 0.5 };
-        (value.is_finite() && part.is_finite()).then(|| {
-            (part.clamp(0.0, 1.0) * ColorMap::COLORS as f64).min(ColorMap::COLORS as f64 - 1.0) as usize
-        })
+    pub fn color_of(value: f64, range: [f64; 2]) -> Option<usize> {
+        let colors = ColorMap::COLORS as f64;
+        part_of(value, range).map(|part| (part * colors).min(colors - 1.0) as usize)
     }
 }
 

@@ -16,7 +16,7 @@ pub struct Material {
     pub name: String,
     /// The color, pattern and finish of the material. A color that follows a value is the middle one of its map here.
     pub look: Look,
-    /// The color map that gives each body its own color, by its index in the scene. `None` for a color that stays.
+    /// The color map that gives each body its own color, by its index in the scene. `None` for a color that never changes.
     pub color_map: Option<usize>,
     /// The part of the light that passes through a convex body: from 0 for opaque to 1 for invisible.
     pub transparency: LookNumber,
@@ -25,7 +25,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// Returns a material of one look, whose color stays.
+    /// Returns a material of one look, whose color never changes.
     pub(in crate::scene) fn new(name: &str, look: Look) -> Material {
         let zero = LookNumber::Fixed(0.0);
         Material { name: name.to_owned(), look, color_map: None, transparency: zero, glow: zero }

@@ -299,12 +299,12 @@ impl Scene {
         arrows.into_iter().map(|(body, force)| (force, body))
     }
 
-    /// Returns the color map of a body. `None` if the color of the body stays.
+    /// Returns the color map of a body. `None` if the color of the body never changes.
     pub fn color_map_of(&self, body: &Body) -> Option<usize> {
         self.materials[body.material?].color_map
     }
 
-    /// Returns the map that a part of a body's look follows. `None` if this part stays.
+    /// Returns the map that a part of a body's look follows. `None` if this part never changes.
     pub fn value_map_of(&self, body: &Body, aspect: LookAspect) -> Option<usize> {
         let material = || body.material.map(|material| &self.materials[material]);
         match aspect {

@@ -56,7 +56,7 @@ pub struct Body {
 pub struct BodyLook {
     /// The factor by which the drawn body is larger than the simulated body. If it follows a value, the largest factor.
     pub scale: f64,
-    /// The map that the factor follows, by its index in the scene. `None` if it stays.
+    /// The map that gives this factor, by its index in the scene. `None` if the factor never changes.
     pub scale_map: Option<usize>,
     /// Whether the body is drawn.
     pub visible: Visibility,

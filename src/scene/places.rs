@@ -32,4 +32,6 @@ pub struct PlotSpans {
     pub curves: Vec<Span>,
     /// The source span of the value of `range`. `None` if the scene does not set it.
     pub range: Option<Span>,
+    /// The source span of the value of `x_range`. `None` if the scene does not set it.
+    pub x_range: Option<Span>,
 }

@@ -55,9 +55,9 @@ pub enum Quantity {
 
 impl Quantity {
     /// The number of arrow scales. Weight, normal force, friction and named forces share one scale.
-    pub const COUNT: usize = 5;
+    pub const SCALE_COUNT: usize = 5;
     /// The number of arrow colors, one for each quantity.
-    pub const COLORS: usize = 8;
+    pub const COLOR_COUNT: usize = 8;
 
     /// The quantities for the arrows of a body, without its loads.
     pub const OF_BODIES: [Quantity; 3] = [Quantity::Velocity, Quantity::Acceleration, Quantity::Force];
@@ -71,7 +71,7 @@ impl Quantity {
     /// Returns the index of the quantity's arrow scale. Weight, normal force, friction and named forces share a scale, so that their arrows
     /// can be compared.
     pub fn number(self) -> usize {
-        self.color().min(Self::COUNT - 1)
+        self.color().min(Self::SCALE_COUNT - 1)
     }
 
     /// Returns the index of the quantity's arrow color, in the order of the enum.

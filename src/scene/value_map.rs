@@ -5,7 +5,7 @@ use super::MeasureFormula;
 /// A number of a look: always the same, or following a value of each body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LookNumber {
-    /// A number that stays.
+    /// A number that never changes.
     Fixed(f64),
     /// A number that follows a value, by the index of its map in the scene.
     Mapped(usize),
@@ -50,7 +50,7 @@ impl LookAspect {
 }
 
 impl LookNumber {
-    /// Returns the index of the map. `None` if the number stays.
+    /// Returns the index of the map. `None` if the number never changes.
     pub fn map(self) -> Option<usize> {
         match self {
             LookNumber::Fixed(_) => None,
@@ -58,7 +58,7 @@ impl LookNumber {
         }
     }
 
-    /// Returns the number that stays. `None` if it follows a value.
+    /// Returns the number that never changes. `None` if it follows a value.
     pub fn fixed(self) -> Option<f64> {
         match self {
             LookNumber::Fixed(number) => Some(number),
@@ -69,18 +69,18 @@ impl LookNumber {
 
 impl ValueMap {
     /// The number of steps from the first to the last number. More could not be told apart, and bodies of one step stand together in scripts.
-    pub const STEPS: u32 = 63;
+    pub const STEP_COUNT: u32 = 63;
 
     /// Returns the number for a value, given the values of the first and the last number. Values outside of this range get the number of its
     /// nearer end. A value that is not finite gets the first number, and a range without a width gives the number in the middle.
     pub fn number_at(&self, value: f64, range: [f64; 2]) -> f64 {
-        self.number(part_of(value, range))
+        self.number(part_of(value, range).unwrap_or(0.0))
     }
 
     /// Returns the same as [`number_at`](Self::number_at), rounded to one of the steps.
     pub fn step_at(&self, value: f64, range: [f64; 2]) -> f64 {
-        let steps = f64::from(ValueMap::STEPS);
-        self.number((part_of(value, range) * steps).round() / steps)
+        let steps = f64::from(ValueMap::STEP_COUNT);
+        self.number((part_of(value, range).unwrap_or(0.0) * steps).round() / steps)
     }
 
     /// Returns the number at a part of the way from the first to the last one. Both ends are exact.
@@ -90,10 +90,11 @@ impl ValueMap {
     }
 }
 
-/// Returns the position of a value in a range, from 0 to 1.
-fn part_of(value: f64, [low, high]: [f64; 2]) -> f64 {
+/// Returns the position of a value in a range, from 0 to 1. It is that of the nearer end outside of the range, and 0.5 in a range without a width.
+/// `None` if the value is not finite.
+pub(super) fn part_of(value: f64, [low, high]: [f64; 2]) -> Option<f64> {
     let part = if high > low { (value - low) / (high - low) } else { 0.5 };
-    if value.is_finite() && part.is_finite() { part.clamp(0.0, 1.0) } else { 0.0 }
+    (value.is_finite() && part.is_finite()).then(|| part.clamp(0.0, 1.0))
 }
 
 #[cfg(test)]

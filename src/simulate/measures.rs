@@ -359,14 +359,14 @@ impl Measures {
             return f64::NAN;
         }
         let shares = moment.computed.potential.get_or_init(|| {
-            let mut world = self.world(moment.bodies);
-            self.all_forces.0.iter().for_each(|force| world.add_shared_force(force.clone()));
+            let world = moment.computed.world.get_or_init(|| self.world(moment.bodies));
             world.model().potential_of_each(moment.time, world.state())
         });
         shares[body]
     }
 
-    /// Returns a world in which the bodies have the poses and the velocities of a moment.
+    /// Returns a world in which the bodies have the poses and the velocities of a moment. It has forces only if measures show potential energies
+    /// of bodies.
     fn world(&self, bodies: &[BodySnapshot]) -> World {
         let mut world = World::new();
         world.reserve(self.bodies.len());
@@ -387,6 +387,7 @@ impl Measures {
                 world.follow(id, Arc::new(Held(*at)));
             }
         }
+        self.all_forces.0.iter().for_each(|force| world.add_shared_force(force.clone()));
         world
     }
 }

@@ -53,9 +53,9 @@ pub struct Ghost {
 /// The values that the look of a ghost follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GhostLook {
-    /// The value that the color follows. `None` if the color stays, or if the value is not finite.
+    /// The value that the color follows. `None` if the color never changes, or if the value is not finite.
     pub color: Option<f64>,
-    /// The value that the size follows. `None` if the size stays, or if the value is not finite.
+    /// The value that the size follows. `None` if the size never changes, or if the value is not finite.
     pub scale: Option<f64>,
     /// Whether the body was drawn then.
     pub is_drawn: bool,

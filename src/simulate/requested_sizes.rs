@@ -3,6 +3,7 @@
 
 use glam::{DQuat, DVec3};
 
+use super::span::ArrowNow;
 use super::vectors::{root, shown, surface};
 use super::{Frame, Load};
 use crate::physics::{Anchor, BodySnapshot, Coordinate, Shape};
@@ -15,6 +16,8 @@ pub struct RequestedSizes {
     pub arrows: Vec<RequestedArrow>,
     /// The requested arrows for weight and contact forces, in the order of bodies, then of [`Quantity::OF_LOADS`].
     pub loads: Vec<RequestedArrow>,
+    /// The forces with arrows: the index of each, and the length of its longest vector at any body in the run, N.
+    pub forces: Vec<(usize, f64)>,
     /// The requested trails, in the order of bodies.
     pub trails: Vec<RequestedTrail>,
     /// The requested ghosts, in the order of bodies.
@@ -139,6 +142,8 @@ impl RequestedSizes {
                 turn: 1.0,
             }));
         }
+        let with_arrows = scene.forces.iter().enumerate().filter(|(_, force)| force.arrow.is_some());
+        sizes.forces = with_arrows.map(|(number, _)| (number, 0.0)).collect();
         for force in &scene.forces {
             let ForceKind::Spring { links, look: Some(_) } = &force.kind else { continue };
             sizes.springs.extend(links.iter().map(|link| RequestedSpring {
@@ -160,6 +165,14 @@ impl RequestedSizes {
             }
         }
         sizes
+    }
+
+    /// Updates the sizes with the arrows of forces in the next frame, each with the index of its force.
+    pub(super) fn see_forces(&mut self, arrows: &[(usize, ArrowNow)]) {
+        for (force, longest) in &mut self.forces {
+            let its = arrows.iter().filter(|(number, _)| number == force);
+            *longest = its.map(|(_, arrow)| arrow.vector.length()).fold(*longest, f64::max);
+        }
     }
 
     /// Updates the sizes with the next frame of the run and the weights and contact forces in this frame.

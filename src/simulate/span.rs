@@ -33,11 +33,11 @@ pub struct Span {
     /// joints.
     pub seen: Bounds,
     /// The reach of arrows whose scale is chosen after the run, indexed by [`Quantity::number`].
-    pub arrows: [Reach; Quantity::COUNT],
+    pub arrows: [Reach; Quantity::SCALE_COUNT],
 }
 
 /// An arrow of a joint, or of a weight, contact force or named force on a body, at one moment.
-pub(super) struct JointArrow {
+pub(super) struct ArrowNow {
     pub(super) quantity: Quantity,
     /// The drawn length of one unit of the quantity, m. `None` if it is chosen after the run.
     pub(super) scale: Option<f64>,
@@ -60,14 +60,14 @@ pub(super) struct Spans {
 }
 
 impl Spans {
-    /// Adds a frame at a time (s). `bodies` are those that the camera must show, and `joints` the arrows of joints, weights and contact
-    /// forces.
+    /// Adds a frame at a time (s). `bodies` are those that the camera must show, and `arrows` those of joints, weights, contact
+    /// forces and named forces.
     pub(super) fn see<'a>(
         &mut self,
         scene: &Scene,
         time: f64,
         bodies: impl Iterator<Item = &'a BodySnapshot>,
-        joints: impl Iterator<Item = JointArrow>,
+        arrows: impl Iterator<Item = ArrowNow>,
     ) {
         for frame in bodies {
             let body = &scene.bodies[frame.id];
@@ -82,9 +82,9 @@ impl Spans {
             self.has_arrows |= body.showing.arrows.iter().any(Option::is_some);
         }
         let Some((span, _)) = &mut self.now else { return };
-        let mut joints = joints.peekable();
-        self.has_arrows |= joints.peek().is_some();
-        span.see_joints(joints);
+        let mut arrows = arrows.peekable();
+        self.has_arrows |= arrows.peek().is_some();
+        span.see_arrows(arrows);
         self.keep(time);
     }
 
@@ -149,9 +149,9 @@ impl Spans {
 }
 
 impl Span {
-    /// Adds arrows of joints, weights and contact forces.
-    fn see_joints(&mut self, arrows: impl Iterator<Item = JointArrow>) {
-        for JointArrow { quantity, scale, root, vector } in arrows {
+    /// Adds arrows of joints, weights, contact forces and named forces.
+    fn see_arrows(&mut self, arrows: impl Iterator<Item = ArrowNow>) {
+        for ArrowNow { quantity, scale, root, vector } in arrows {
             match scale {
                 Some(scale) => self.seen = self.seen.union_if_finite(root + vector * scale),
                 None => self.arrows[quantity.number()].add(root, vector),

@@ -2,22 +2,22 @@
 //!
 //! The survey is made while frames are recorded, or while a recording is read.
 
+mod arrows;
 mod corrected;
 mod crossing;
 mod curves;
-mod force_arrows;
 mod ranges;
 mod spreads;
 mod stretched;
 #[cfg(test)]
 mod tests;
 
+use arrows::Arrows;
 pub use corrected::Corrected;
 pub use crossing::Crossing;
 use crossing::{Falls, Watched, free, planes};
 use curves::Curves;
 pub use curves::{CurvePoint, LeftOut};
-use force_arrows::ForceArrows;
 use ranges::Ranges;
 pub use spreads::Spread;
 use spreads::Spreads;
@@ -28,11 +28,12 @@ use super::overlap::{Overlap, Watch};
 use super::particles::Clouds;
 use super::requested_sizes::RequestedSizes;
 use super::sectors::Sweeps;
-use super::span::{JointArrow, Spans};
-use super::vectors::JointEnd;
-use super::{Bounds, EnergyError, EnergyScale, Frame, Frames, MomentState, SimulateError, Span, world};
+use super::span::{ArrowNow, Spans};
+use super::{
+    Bounds, EnergyError, EnergyScale, Frame, Frames, Measures, MomentState, SimulateError, Span, world,
+};
 use crate::physics::{BodySnapshot, LawResidual};
-use crate::scene::{Arrow, Joint, Quantity, Scene};
+use crate::scene::Scene;
 
 /// Statistics of a whole run.
 #[derive(Clone, Debug, PartialEq)]
@@ -146,11 +147,8 @@ pub struct Surveyor<'a> {
     clouds: Clouds,
     corrected: Option<Corrected>,
     requested: RequestedSizes,
-    /// The requested arrows of joints. Each entry has the joint's end at which the arrow begins, the quantity that it shows, and its scale
-    /// if given.
-    joint_arrows: Vec<(JointEnd, Quantity, Option<f64>)>,
-    /// The arrows of named forces. `None` without any.
-    force_arrows: Option<ForceArrows<'a>>,
+    arrows: Arrows<'a>,
+    measures: Measures,
     contacts: Option<ContactTotals>,
     laws: Vec<LawResidual>,
     gaps: Gaps,
@@ -189,8 +187,8 @@ impl<'a> Surveyor<'a> {
             clouds: Clouds::thinned(scene, SOME_PARTICLES),
             corrected: None,
             requested: RequestedSizes::new(scene),
-            joint_arrows: joint_arrows(scene),
-            force_arrows: ForceArrows::new(scene),
+            arrows: Arrows::new(scene),
+            measures: Measures::new(scene),
             contacts: scene.simulation.contacts.map(|_| ContactTotals::default()),
             laws: Vec::new(),
             gaps: Gaps::new(scene),
@@ -222,18 +220,18 @@ impl<'a> Surveyor<'a> {
         self.requested.see(scene, frame, &loads);
         // The camera need not show a body behind a plane that it has passed through.
         let counts = |body: &&BodySnapshot| !self.crossed[body.id];
-        let joints = self.joint_arrows.iter().filter_map(|(end, quantity, scale)| {
-            let (root, vector) = end.arrow(*quantity, frame)?;
-            Some(JointArrow { quantity: *quantity, scale: *scale, root, vector })
-        });
-        let loads = loads.into_iter().map(|load| JointArrow {
+        let loads = loads.into_iter().map(|load| ArrowNow {
             quantity: load.quantity,
             scale: load.arrow.scale,
             root: load.root,
             vector: load.vector,
         });
-        let of_forces = self.force_arrows.iter().flat_map(|arrows| arrows.at(frame));
-        let arrows = joints.chain(loads).chain(of_forces);
+        self.sweeps.note(frame);
+        let moment = MomentState::with_areas(frame, self.sweeps.complete());
+        let of_forces = self.arrows.of_forces(frame, &moment, &self.measures);
+        self.requested.see_forces(&of_forces);
+        let of_forces = of_forces.into_iter().map(|(_, arrow)| arrow);
+        let arrows = self.arrows.of_joints(frame).chain(loads).chain(of_forces);
         self.spans.see(scene, frame.time, frame.bodies.iter().filter(counts), arrows);
         self.clouds.note(frame);
         if let Some(here) = self.clouds.bounds(scene) {
@@ -258,11 +256,9 @@ impl<'a> Surveyor<'a> {
         }
         self.laws.clone_from(&frame.laws);
         self.error.add(&frame.balance);
-        self.sweeps.note(frame);
-        let moment = MomentState::with_areas(frame, self.sweeps.complete());
-        self.curves.see(&moment);
-        self.ranges.see(&moment);
-        self.spreads.see(&moment, frame.index);
+        self.curves.see(&moment, &self.measures);
+        self.ranges.see(&moment, &self.measures);
+        self.spreads.see(&moment, &self.measures, frame.index);
     }
 
     /// Returns the survey after the last frame.
@@ -320,18 +316,4 @@ impl<'a> Surveyor<'a> {
     pub fn bounds(&self) -> Option<Bounds> {
         self.spans.bounds()
     }
-}
-
-/// Lists the requested arrows of joints. Each entry has the joint's end at which the arrow begins, the quantity that it shows, and its
-/// scale if given.
-fn joint_arrows(scene: &Scene) -> Vec<(JointEnd, Quantity, Option<f64>)> {
-    let joints = scene.joints.iter().enumerate();
-    let of_joint = |(number, joint): (usize, &Joint)| {
-        let arrows = Quantity::OF_JOINTS.into_iter().zip(joint.arrows);
-        let arrow = move |(quantity, arrow): (Quantity, Option<Arrow>)| {
-            Some((JointEnd::new(scene, number), quantity, arrow?.scale))
-        };
-        arrows.filter_map(arrow)
-    };
-    joints.flat_map(of_joint).collect()
 }

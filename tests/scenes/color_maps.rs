@@ -5,14 +5,12 @@ use jabuka::export::write_glb;
 use jabuka::scene::{ColorMap, Scene};
 use jabuka::simulate::Selection;
 
-/// Three balls with constant speeds of 0, 5 and 10 m/s, a fourth one that starts later, and a crate with a pattern.
-const BALLS: &str = "
+/// Three balls of the material `gas`, with constant speeds of 0, 5 and 10 m/s.
+pub(super) const BALLS: &str = "
     simulation.duration = 1
     [defaults.body]
     shape.sphere.radius = 0.1
-    material = 'gray'
-    [material.gray]
-    color.map = { of = 'speed', palette = ['black', 'white'] }
+    material = 'gas'
     [body.still]
     [body.slow]
     location = [0, 1, 0]
@@ -20,13 +18,19 @@ const BALLS: &str = "
     [body.fast]
     location = [0, 2, 0]
     velocity = [0, 0, 10]
-    [body.late]
-    location = [0, 3, 0]
-    start = 0.5
+    [material.gas]
     ";
 
-fn script(text: &str, frame: usize) -> String {
-    let scene = Scene::parse(text).unwrap();
+/// Returns a scene of these balls and a fourth one that starts later, whose colors follow their speeds.
+fn mapped() -> String {
+    format!(
+        "{BALLS}color.map = {{ of = 'speed', palette = ['black', 'white'] }}\n[body.late]\nlocation = [0, 3, 0]\nstart = 0.5"
+    )
+}
+
+/// Returns the script of a frame.
+pub(super) fn script(text: &str, frame: usize) -> String {
+    let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{}", report.to_text(false)));
     let run = Run::new(&scene).unwrap();
     run.script(&run.frames().nth(frame).unwrap().unwrap()).unwrap()
 }
@@ -48,9 +52,9 @@ fn colored(script: &str) -> Vec<(String, String)> {
 fn bodies_of_one_value_stand_together_in_its_color() {
     let (gray, name) = ("<0.501960784, 0.501960784, 0.501960784>", |name: &str| name.to_owned());
     let pair = |body: &str, color: &str| (name(body), name(color));
-    let first = colored(&script(BALLS, 0));
+    let first = colored(&script(&mapped(), 0));
     assert_eq!(first, [pair("still", "<0, 0, 0>"), pair("slow", gray), pair("fast", "<1, 1, 1>")]);
-    let last = colored(&script(BALLS, 25));
+    let last = colored(&script(&mapped(), 25));
     assert_eq!(last[..2], [pair("still", "<0, 0, 0>"), pair("late", "<0, 0, 0>")], "one union");
 }
 
@@ -59,7 +63,7 @@ fn bodies_of_one_value_stand_together_in_its_color() {
 #[test]
 fn a_range_and_a_formula_choose_the_color() {
     let of = |of: &str| {
-        let text = BALLS.replace("'speed',", &format!("'{of}', range = [-10, 10],"));
+        let text = mapped().replace("'speed',", &format!("'{of}', range = [-10, 10],"));
         let scene = Scene::parse(&text).unwrap();
         let run = Run::new(&scene).unwrap();
         run.emitter().plan().looks(&run.frames().next().unwrap().unwrap()).colors
@@ -95,7 +99,7 @@ fn copies_share_one_map_and_one_bar() {
 /// A model has the colors of its first frame.
 #[test]
 fn a_model_has_the_colors_of_its_first_frame() {
-    let scene = Scene::parse(BALLS).unwrap();
+    let scene = Scene::parse(&mapped()).unwrap();
     let run = Run::new(&scene).unwrap();
     let mut bytes = Vec::new();
     write_glb(run.recorded(), &Selection::first(3), &mut bytes).unwrap();

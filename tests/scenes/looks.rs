@@ -1,37 +1,16 @@
 //! Looks that follow values: transparency, glow, size and visibility, in scripts and in models.
 
+use super::color_maps::{BALLS, script};
 use jabuka::Run;
 use jabuka::export::write_glb;
 use jabuka::picture::Looks;
 use jabuka::scene::Scene;
 use jabuka::simulate::Selection;
 
-/// Three balls with constant speeds of 0, 5 and 10 m/s.
-const BALLS: &str = "
-    simulation.duration = 1
-    [defaults.body]
-    shape.sphere.radius = 0.1
-    material = 'gas'
-    [body.still]
-    [body.slow]
-    location = [0, 1, 0]
-    velocity = [5, 0, 0]
-    [body.fast]
-    location = [0, 2, 0]
-    velocity = [0, 0, 10]
-    [material.gas]
-    ";
-
 fn looks(text: &str) -> Looks {
     let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{}", report.to_text(false)));
     let run = Run::new(&scene).unwrap();
     run.emitter().plan().looks(&run.frames().next().unwrap().unwrap())
-}
-
-fn script(text: &str) -> String {
-    let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{}", report.to_text(false)));
-    let run = Run::new(&scene).unwrap();
-    run.script(&run.frames().next().unwrap().unwrap()).unwrap()
 }
 
 /// The number at a value is `to[0]` + part (`to[1]` − `to[0]`), in 63 steps. Values outside of the range get the numbers of its ends.
@@ -59,7 +38,7 @@ fn bodies_of_one_look_stand_together() {
             [body.gas]\nshape.sphere.radius = 0.1\nlocation = ['i', 0, 0]\nvelocity = ['i', 0, 0]
             repeat.count = 1000\nmaterial = 'gas'\n[material.gas]\n{keys}"
         );
-        script(&text)
+        script(&text, 0)
     };
     let objects = |script: &str| script.matches("\nunion {").count() + script.matches("\nobject {").count();
     let clear = gas("transparency.map.of = 'speed'");
@@ -112,7 +91,7 @@ fn radii(script: &str) -> Vec<(&str, f64)> {
 fn a_body_is_drawn_as_large_as_its_value_says() {
     let with = |keys: &str| {
         let text = format!("{BALLS}\n").replace("[body.still]", &format!("{keys}\n[body.still]"));
-        script(&(text + "[povray]\nunit = 1"))
+        script(&(text + "[povray]\nunit = 1"), 0)
     };
     let usual = with("look.scale.map.of = 'speed'");
     assert_eq!(radii(&usual), [("still", 0.1), ("slow", 0.15), ("fast", 0.2)]);
@@ -125,7 +104,7 @@ fn a_body_is_drawn_as_large_as_its_value_says() {
 fn a_box_is_drawn_as_large_as_its_value_says() {
     let text = "simulation.duration = 0\n[body.crate]\nshape.box.size = [1, 1, 1]\nlocation = [3, 0, 0]
         look.scale.map = { of = 'x', range = [0, 6], to = [1, 2] }\n[povray]\nunit = 1";
-    let script = script(text);
+    let script = script(text, 0);
     // Drawn 1.5 times as large: its largest size, 2, times 0.75.
     assert!(script.contains("matrix <0.75, 0, 0, 0, 0.75, 0, 0, 0, 0.75, 3, 0, 0>"), "{script}");
     assert!(script.contains("box { <-1, -1, -1>, <1, 1, 1>") || script.contains("box { -1, 1"), "{script}");

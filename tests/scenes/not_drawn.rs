@@ -47,6 +47,18 @@ fn arrows_that_no_picture_shows() {
 }
 
 #[test]
+fn an_arrow_of_a_force_that_no_picture_shows() {
+    let force = |scale: &str| format!("{BALL}[force.air.drag]\nlinear = 0.5\narrow.scale = {scale}\n");
+    let [said_of_air] = &said(&force("1e-6"))[..] else { panic!("one warning") };
+    assert!(
+        said_of_air.starts_with("the arrow of the force `air` is not seen: at most 0.00"),
+        "{said_of_air}"
+    );
+    assert!(said_of_air.contains("write `arrow.scale = 0."), "{said_of_air}");
+    assert_eq!(said(&force("0.1")), [""; 0]);
+}
+
+#[test]
 fn arrows_whose_tips_are_at_no_finite_place() {
     let text = "simulation.duration = 0\n[force.f.lorentz]\nelectric = [1e100, 0, 0]\n[body.ball]
         shape.sphere.radius = 0.5\nmass = 1e-100\ncharge = 1e100\narrows.acceleration.scale = 1e20";
@@ -228,6 +240,13 @@ fn curves_of_which_no_picture_shows_a_point() {
     // The change that the warning suggests makes the curve visible.
     assert_eq!(of_plots(&plot("['ball.y', 'ball.speed + 5']", "range = [-4, 14]")), [""; 0]);
     assert_eq!(of_plots(&plot("['ball.y', 'ball.speed + 5']", "")), [""; 0]);
+    // The run takes 1 s or more, so no time is in this range. The horizontal axis has a key of its own.
+    let said = of_plots(&plot("'ball.y'", "x_range = [-5, -4]"));
+    assert_eq!(said.len(), 1);
+    assert!(
+        said[0].contains("outside of `x_range`") && said[0].contains("write `x_range = [-5, "),
+        "{said:?}"
+    );
     // A curve that crosses the range between two frames is visible.
     assert_eq!(of_plots(&plot("'ball.y'", "range = [-1.0001, -1]")), [""; 0]);
     assert_eq!(

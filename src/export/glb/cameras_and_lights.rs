@@ -22,7 +22,7 @@ pub(super) struct CamerasAndLights {
     pub(super) lights: Vec<Light>,
     /// The look of each body in the first frame, if it follows a value. Models cannot animate looks.
     pub(super) looks: Vec<Option<MappedLook>>,
-    /// The size of each body in the first frame, relative to its largest one; 0 if it is not drawn then.
+    /// The size of each body in the first frame, as a part of its largest size in the run. 0 for a body that is not drawn then.
     pub(super) sizes: Vec<f64>,
 }
 

@@ -12,9 +12,9 @@ use crate::simulate::MomentState;
 /// The gap between a point and its text, in heights of a line.
 const GAP: f64 = 0.3;
 /// The directions in which a text is tried, relative to the wanted one, degrees.
-const TURNS: [f64; 8] = [0.0, 35.0, -35.0, 70.0, -70.0, 110.0, -110.0, 180.0];
+const TRIED_TURNS: [f64; 8] = [0.0, 35.0, -35.0, 70.0, -70.0, 110.0, -110.0, 180.0];
 /// The additional distances at which a text is tried, in heights of a line.
-const DISTANCES: [f64; 5] = [0.0, 0.8, 1.6, 2.5, 3.5];
+const TRIED_DISTANCES: [f64; 5] = [0.0, 0.8, 1.6, 2.5, 3.5];
 /// The cost of turning a text away from the wanted direction to the opposite one, in heights of a line.
 const COST_OF_HALF_TURN: f64 = 3.0;
 
@@ -84,8 +84,9 @@ pub(in crate::picture) fn place<'a>(
                 anchor: Some(note.at),
             })
         };
-        let places = DISTANCES.into_iter().flat_map(|farther| {
-            TURNS.map(|turn| (candidate(turn, farther), farther + turn.abs() / 180.0 * COST_OF_HALF_TURN))
+        let places = TRIED_DISTANCES.into_iter().flat_map(|farther| {
+            TRIED_TURNS
+                .map(|turn| (candidate(turn, farther), farther + turn.abs() / 180.0 * COST_OF_HALF_TURN))
         });
         texts.extend(surroundings.settle(places));
     }

@@ -106,7 +106,7 @@ impl Plan {
         let longest = std::array::from_fn(|kind: usize| span.arrows[kind].largest);
         let scales = round_scales(longest, view);
         let mut seen = span.seen;
-        for tips in (0..Quantity::COUNT).filter_map(|kind| span.arrows[kind].tips(scales[kind])) {
+        for tips in (0..Quantity::SCALE_COUNT).filter_map(|kind| span.arrows[kind].tips(scales[kind])) {
             seen = seen.union(tips);
         }
         if let Some(grid) = ruler.as_ref().filter(|_| !first.moves()) {

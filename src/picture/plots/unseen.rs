@@ -25,13 +25,15 @@ pub enum UnseenPlot {
         /// Whether the two stand side by side, and not above each other.
         is_beside: bool,
     },
-    /// All values of a curve are outside of the range of its plot.
+    /// All values of a curve are outside of a range of its plot.
     OutOfRange {
+        /// The axis with the range: 0 is the horizontal one, 1 the vertical one.
+        axis: usize,
         /// The plot of the curve.
         plot: usize,
         /// The curve.
         curve: usize,
-        /// The lowest and the highest value of the curve.
+        /// The lowest and the highest value of the curve along this axis.
         values: [f64; 2],
         /// A range that contains these values and the given range.
         fit: [f64; 2],
@@ -117,11 +119,17 @@ impl Plots {
     /// Returns why no picture shows a point of a curve. `points` are those of the run.
     fn without_points(&self, scene: &Scene, [plot, curve]: [usize; 2], points: &[CurvePoint]) -> UnseenPlot {
         let of_plot = &self.plots[plot];
-        if let (Some(values), Some(range)) = (span(&[points], 1), of_plot.range) {
+        // The axis on which the values are outside comes first. A curve can also pass a corner of its plot.
+        let ranges = [of_plot.x_range, of_plot.range];
+        let of_axis = |axis: usize| Some((axis, span(&[points], axis)?, ranges[axis]?));
+        let is_outside =
+            |(_, values, range): &(usize, [f64; 2], [f64; 2])| values[1] < range[0] || values[0] > range[1];
+        let given = || [1, 0].into_iter().filter_map(of_axis);
+        if let Some((axis, values, range)) = given().find(is_outside).or_else(|| given().next()) {
             let (low, high) = (values[0].min(range[0]), values[1].max(range[1]));
             let step = decimal_step(high - low) / 10.0;
             let fit = [libm::floor(low / step + 1e-9) * step, libm::ceil(high / step - 1e-9) * step];
-            return UnseenPlot::OutOfRange { plot, curve, values, fit };
+            return UnseenPlot::OutOfRange { axis, plot, curve, values, fit };
         }
         let inputs = of_plot.x.inputs.iter().chain(&of_plot.curves[curve].y.inputs);
         let end = scene.simulation.timeline.end();

@@ -106,8 +106,8 @@ pub(super) fn read(
         .collect()
 }
 
-/// Reads a text of a map. A name such as `speed` in it means the measure of each body itself. Reports a text that is too long. `noun` is what
-/// the text belongs to, for messages, and `code` that of its errors.
+/// Reads a text of a map. A name such as `speed` in it means the measure of each body itself. Reports a text that is too long. Messages call the
+/// owner of the text by `noun`, and errors have the code `code`.
 pub(super) fn text<T>(
     root: &View<'_>,
     (noun, code): (&'static str, Code),

@@ -111,7 +111,8 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
         };
         let curves: Vec<Curve> = formulas.into_iter().enumerate().filter_map(curve).collect();
         let curves_at = written.iter().map(|(_, span)| *span).collect();
-        let spans = PlotSpans { name: span, curves: curves_at, range: view.span(&plot::RANGE) };
+        let [range_at, x_range_at] = [&plot::RANGE, &plot::X_RANGE].map(|key| view.span(key));
+        let spans = PlotSpans { name: span, curves: curves_at, range: range_at, x_range: x_range_at };
         let plot = Plot {
             name: name.to_owned(),
             title,

@@ -48,7 +48,7 @@ impl Values {
         needs_any.then(|| Values { measures: Measures::new(scene), bodies })
     }
 
-    /// Returns the value that the color of a body's trail follows, at a moment. `None` if the color stays, or if the value is not finite.
+    /// Returns the value that the color of a body's trail follows, at a moment. `None` if the color never changes, or if the value is not finite.
     pub(super) fn of_trail(&self, body: usize, moment: &MomentState<'_>) -> Option<f64> {
         self.value(self.bodies[body].color.as_ref(), body, moment)
     }

@@ -34,7 +34,6 @@ pub struct LeftOut {
 /// Collects the curves of all plots.
 pub(super) struct Curves<'a> {
     plots: &'a [Plot],
-    measures: Measures,
     /// The number of frames in a group.
     stride: usize,
     /// The curves of all plots, in their order.
@@ -52,7 +51,6 @@ impl<'a> Curves<'a> {
         let count = plots.iter().map(|plot| plot.curves.len()).sum();
         Curves {
             plots,
-            measures: Measures::new(scene),
             stride: scene.simulation.timeline.frames().div_ceil(MAX_GROUPS).max(1),
             curves: vec![Thinned::default(); count],
             last: vec![f64::NAN; count],
@@ -61,16 +59,16 @@ impl<'a> Curves<'a> {
         }
     }
 
-    /// Adds the points of the next frame.
-    pub(super) fn see(&mut self, moment: &MomentState<'_>) {
+    /// Adds the points of the next frame. `measures` are those of the scene.
+    pub(super) fn see(&mut self, moment: &MomentState<'_>, measures: &Measures) {
         let last_time = std::mem::replace(&mut self.last_time, moment.time());
         let mut curves = self.curves.iter_mut().zip(&mut self.left_out).zip(&mut self.last);
         for plot in self.plots {
-            let x = self.measures.value(&plot.x, moment);
+            let x = measures.value(&plot.x, moment);
             // The start of the run has no place on a logarithmic axis of the time. No curve misses it.
             let is_counted = x > 0.0 || !(plot.is_logarithmic[0] && plot.is_over_time());
             for (curve, ((points, left_out), last)) in plot.curves.iter().zip(&mut curves) {
-                let at = [x, self.measures.value(&curve.y, moment)];
+                let at = [x, measures.value(&curve.y, moment)];
                 if curve.y.jumps_by_a_turn() && (at[1] - *last).abs() > HALF_TURN / curve.y.unit_size() {
                     // The angle goes on at the other end of its range. A line between the two would show values that it never has.
                     points.gap.get_or_insert(0.5 * (last_time + moment.time()));

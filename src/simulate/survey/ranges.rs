@@ -9,7 +9,6 @@ pub(super) struct Ranges<'a> {
     maps: Vec<Found<'a>>,
     /// The number of color maps.
     colors: usize,
-    measures: Measures,
 }
 
 /// The values of a map so far.
@@ -39,13 +38,13 @@ impl<'a> Ranges<'a> {
                 }
             }
         }
-        Ranges { maps, colors, measures: Measures::new(scene) }
+        Ranges { maps, colors }
     }
 
-    /// Widens the ranges by the values of the next frame.
-    pub(super) fn see(&mut self, moment: &MomentState<'_>) {
+    /// Widens the ranges by the values of the next frame. `measures` are those of the scene.
+    pub(super) fn see(&mut self, moment: &MomentState<'_>, measures: &Measures) {
         for Found { of, bodies, range } in &mut self.maps {
-            let values = self.measures.of_each(of, bodies.iter().copied(), moment);
+            let values = measures.of_each(of, bodies.iter().copied(), moment);
             for value in values.filter(|value| value.is_finite()) {
                 let [low, high] = range.unwrap_or([value; 2]);
                 *range = Some([low.min(value), high.max(value)]);

@@ -19,7 +19,6 @@ pub struct Spread {
 /// Collects the values of all histograms of a scene.
 pub(super) struct Spreads<'a> {
     scene: &'a Scene,
-    measures: Measures,
     spreads: Vec<Spread>,
 }
 
@@ -27,17 +26,17 @@ impl<'a> Spreads<'a> {
     pub(super) fn new(scene: &'a Scene) -> Spreads<'a> {
         let is_histogram = |kind: &PlotKind| matches!(kind, PlotKind::Histogram { .. });
         let count = scene.plots.iter().filter(|plot| is_histogram(&plot.kind)).count();
-        Spreads { scene, measures: Measures::new(scene), spreads: vec![Spread::default(); count] }
+        Spreads { scene, spreads: vec![Spread::default(); count] }
     }
 
-    /// Adds the values of the next frame.
-    pub(super) fn see(&mut self, moment: &MomentState<'_>, frame: usize) {
+    /// Adds the values of the next frame. `measures` are those of the scene.
+    pub(super) fn see(&mut self, moment: &MomentState<'_>, measures: &Measures, frame: usize) {
         let frames = self.scene.simulation.timeline.frames();
         let mut spreads = self.spreads.iter_mut();
         for plot in &self.scene.plots {
             let PlotKind::Histogram { bodies, .. } = &plot.kind else { continue };
             let (Some(spread), Some(curve)) = (spreads.next(), plot.curves.first()) else { continue };
-            let mut values: Vec<f64> = self.measures.of_present(&curve.y, bodies, moment).collect();
+            let mut values: Vec<f64> = measures.of_present(&curve.y, bodies, moment).collect();
             values.retain(|value| value.is_finite());
             spread.add(values, frame, frames.saturating_mul(bodies.len()).div_ceil(MAX_VALUES).max(1));
         }

@@ -2,7 +2,7 @@
 
 use crate::server::Scene;
 
-/// A ball that leaves a trail, and one above it that leaves ghosts. The color of both follows their place.
+/// One ball leaves a trail, and another one above it leaves ghosts. Trail and ghosts are red on the left and blue on the right.
 const ALONG: &str = "
     simulation = { duration = 2, frame_rate = 10 }
     environment = 'blackboard'
