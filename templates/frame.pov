@@ -12,5 +12,10 @@ ${common}
 <% include "lights.inc" %>
 
 <% endif %>
+<% if sdl is not none %>
+// the scene's own SDL
+${sdl}
+
+<% endif %>
 // the bodies
 ${solids_sdl}${showing_sdl}

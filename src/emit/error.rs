@@ -12,6 +12,13 @@ pub enum EmitError {
         /// The time of the frame, s.
         time: f64,
     },
+    /// A value in the scene's own SDL is unknown at the time of a frame.
+    NoValue {
+        /// The formula as it is written in the scene.
+        formula: String,
+        /// The time of the frame, s.
+        time: f64,
+    },
     /// The camera and the point that it looks at are so close together that POV-Ray cannot distinguish them.
     Blind {
         /// The time of the frame, s.
@@ -28,9 +35,10 @@ impl EmitError {
     pub fn code(&self) -> Code {
         match self {
             EmitError::Indistinct(_) => Code::Indistinct,
-            EmitError::OutOfRange { .. } | EmitError::Blind { .. } | EmitError::Template(_) => {
-                Code::CannotEmit
-            }
+            EmitError::OutOfRange { .. }
+            | EmitError::NoValue { .. }
+            | EmitError::Blind { .. }
+            | EmitError::Template(_) => Code::CannotEmit,
         }
     }
 
@@ -38,7 +46,7 @@ impl EmitError {
     pub fn report(&self) -> Report {
         match self {
             EmitError::Template(report) | EmitError::Indistinct(report) => report.clone(),
-            EmitError::OutOfRange { .. } | EmitError::Blind { .. } => {
+            EmitError::OutOfRange { .. } | EmitError::NoValue { .. } | EmitError::Blind { .. } => {
                 Report::of_error(self.code(), self.to_string())
             }
         }
@@ -96,6 +104,9 @@ impl std::fmt::Display for EmitError {
         match self {
             EmitError::OutOfRange { what, time } => {
                 write!(f, "at t = {time} s {what} is at a place that is no number in POV-Ray's units")
+            }
+            EmitError::NoValue { formula, time } => {
+                write!(f, "at t = {time} s `${{{formula}}}` in `povray.sdl` has no value")
             }
             EmitError::Blind { time } => {
                 write!(f, "at t = {time} s POV-Ray cannot tell the camera from the point that it looks at")

@@ -85,7 +85,7 @@ use self::templates::Templates;
 use self::unit::Unit;
 use self::values::FrameConstants;
 use crate::picture::{Plan, number};
-use crate::scene::{Camera, Layout, Scene, Shutter};
+use crate::scene::{Camera, Layout, Scene, SdlPiece, Shutter};
 use crate::simulate::{Frame, Survey};
 
 pub use error::EmitError;
@@ -108,8 +108,10 @@ pub struct Emitter {
     particles: Particles,
     /// The contents of the pictures, in meters: camera, surroundings, arrows, labels and so on.
     plan: Plan,
+    /// The scene's own SDL, if values in it change from frame to frame. Otherwise it is in the shared part.
+    sdl: Vec<SdlPiece>,
     unit: Unit,
-    digits: usize,
+    style: Style,
     /// The names of the bodies, by index in the scene.
     names: Vec<Arc<str>>,
     /// The names of the particle emitters, by index in the scene.
@@ -150,8 +152,13 @@ impl Emitter {
             showing: Showing::new(scene, &plan, &materials, &meshes, style),
             particles: Particles::new(scene, style),
             plan,
+            sdl: if sdl::constant(&scene.povray.sdl).is_none() {
+                scene.povray.sdl.clone()
+            } else {
+                Vec::new()
+            },
             unit,
-            digits: scene.povray.digits,
+            style,
             names: scene.bodies.iter().map(|body| body.name.clone()).collect(),
             emitters: scene.emitters.iter().map(|emitter| emitter.name.clone()).collect(),
             longest: AtomicUsize::new(0),
@@ -180,14 +187,14 @@ impl Emitter {
     ///
     /// # Errors
     /// If the location of a body, a light or the camera is not finite in POV-Ray units, the camera is too close to the point that it looks
-    /// at, or a template fails.
+    /// at, a value in the scene's own SDL is unknown, or a template fails.
     pub fn script(&self, frame: &Frame) -> Result<String, EmitError> {
         let out_of_range = |what: String| EmitError::OutOfRange { what, time: frame.time };
         if let Some(what) = self.plan.lost(frame) {
             return Err(out_of_range(what));
         }
         if self.plan.camera_moves()
-            && !distinct::sees(&self.plan.camera(frame), self.unit.length, self.digits)
+            && !distinct::sees(&self.plan.camera(frame), self.unit.length, self.style.digits)
         {
             return Err(EmitError::Blind { time: frame.time });
         }
@@ -201,7 +208,27 @@ impl Emitter {
         self.showing.write(&mut showing_sdl, &self.plan, frame, &self.names);
         self.longest.fetch_max(solids_sdl.len(), Ordering::Relaxed);
         self.longest_beside.fetch_max(showing_sdl.len(), Ordering::Relaxed);
-        self.templates.render("frame.pov", &self.constants.of(&self.plan, frame, solids_sdl, showing_sdl))
+        let sdl = self.own_sdl(frame)?;
+        let values = self.constants.of(&self.plan, frame, [solids_sdl, showing_sdl], sdl);
+        self.templates.render("frame.pov", &values)
+    }
+
+    /// Returns the scene's own SDL with the values of a frame. `None` if it is in the shared part.
+    fn own_sdl(&self, frame: &Frame) -> Result<Option<String>, EmitError> {
+        let mut sdl = String::new();
+        for piece in &self.sdl {
+            match piece {
+                SdlPiece::Sdl(code) => sdl.push_str(code),
+                SdlPiece::Value { text, formula } => {
+                    let value = self.plan.value(formula, frame);
+                    if !value.is_finite() {
+                        return Err(EmitError::NoValue { formula: text.clone(), time: frame.time });
+                    }
+                    self.style.number(&mut sdl, value);
+                }
+            }
+        }
+        Ok(Some(sdl).filter(|_| !self.sdl.is_empty()))
     }
 
     /// Returns the trail files that the script of a frame includes, except those whose names `has` accepts. The name of a file contains a
@@ -222,7 +249,7 @@ impl Emitter {
         moments: impl Iterator<Item = Result<Frame, E>>,
         mut put: impl FnMut(&str) -> Result<(), E>,
     ) -> Result<(), E> {
-        put(&shutter::head(frame, shutter, self.digits))?;
+        put(&shutter::head(frame, shutter, self.style.digits))?;
         for (number, moment) in moments.enumerate() {
             put(&shutter::moment(number, &self.script(&moment?)?))?;
         }

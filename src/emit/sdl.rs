@@ -3,6 +3,7 @@
 use glam::{DMat3, DQuat, DVec3};
 
 use super::number;
+use crate::scene::SdlPiece;
 
 /// The smallest distance between two points that count as different, POV-Ray units. The limit of POV-Ray's parser is 10⁻¹⁰.
 const NEAREST: f64 = 1e-8;
@@ -86,6 +87,16 @@ impl Style {
             && (to - from).length() / self.unit > NEAREST
             && written(from) != written(to)
     }
+}
+
+/// Returns the scene's own SDL if it is the same in all scripts. `None` if there is none, or if it contains values.
+pub(super) fn constant(pieces: &[SdlPiece]) -> Option<String> {
+    let code = |piece: &SdlPiece| match piece {
+        SdlPiece::Sdl(code) => Some(code.clone()),
+        SdlPiece::Value { .. } => None,
+    };
+    let code: Option<String> = pieces.iter().map(code).collect();
+    code.filter(|_| !pieces.is_empty())
 }
 
 #[cfg(test)]

@@ -91,7 +91,7 @@ impl StageText {
             size: stage.size / unit,
             center: (stage.center / unit).to_array(),
             camera: (!plan.camera_moves()).then(|| CameraText::new(plan.placed(), unit)),
-            lights: (!plan.lights_move()).then(|| lights(plan, 0.0, unit)),
+            lights: (!plan.lights_move()).then(|| lights(plan.lights_at_start(), unit)),
             ground: stage.ground.map(|ground| GroundText {
                 height: ground.height / unit,
                 tile: ground.tile / unit,
@@ -130,8 +130,8 @@ impl CameraText {
     }
 }
 
-/// Returns the planned lights at `time` (s) as values for templates. `unit` is the length of one POV-Ray unit, m.
-pub(super) fn lights(plan: &Plan, time: f64, unit: f64) -> Vec<LightText> {
+/// Returns planned lights as values for templates. `unit` is the length of one POV-Ray unit, m.
+pub(super) fn lights(lights: Vec<PlacedLight>, unit: f64) -> Vec<LightText> {
     let text = |light: PlacedLight| LightText {
         name: light.name,
         kind: light.kind.name(),
@@ -140,7 +140,7 @@ pub(super) fn lights(plan: &Plan, time: f64, unit: f64) -> Vec<LightText> {
         color: light.color,
         shadows: light.shadows,
     };
-    plan.lights(time).into_iter().map(text).collect()
+    lights.into_iter().map(text).collect()
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::materials::MaterialText;
 use super::names;
-use super::sdl::Style;
+use super::sdl::{self, Style};
 use super::showing::NeededMacros;
 use super::span::Span;
 use super::stage::{self, CameraText, StageText};
@@ -25,7 +25,7 @@ pub(super) fn common(scene: &Scene, stage: &StageText, materials: &[MaterialText
     context! {
         title => scene.title.clone(),
         includes => scene.povray.include.iter().map(include).collect::<Vec<_>>(),
-        sdl => scene.povray.sdl.clone(),
+        sdl => sdl::constant(&scene.povray.sdl),
         materials => Value::from(Serde(materials)),
         scope => match scene.output.layout {
             Layout::SelfContained => "local",
@@ -126,8 +126,15 @@ impl FrameConstants {
         }
     }
 
-    /// Returns all values of a frame. `solids_sdl` is the text of the bodies, and `showing_sdl` the text of all other drawn objects.
-    pub(super) fn of(&self, plan: &Plan, frame: &Frame, solids_sdl: String, showing_sdl: String) -> Value {
+    /// Returns all values of a frame. `solids_sdl` is the text of the bodies, `showing_sdl` the text of all other drawn objects, and `sdl` the
+    /// scene's own SDL, if it changes from frame to frame.
+    pub(super) fn of(
+        &self,
+        plan: &Plan,
+        frame: &Frame,
+        [solids_sdl, showing_sdl]: [String; 2],
+        sdl: Option<String>,
+    ) -> Value {
         let bodies = self.bodies.as_ref().map(|constants| {
             let values = frame.bodies.iter().map(|body| self.body(&constants[body.id], body));
             Value::from(Serde(values.collect::<Vec<_>>()))
@@ -135,7 +142,7 @@ impl FrameConstants {
         let unit = self.style.unit;
         // A camera that does not move is in the part that all scripts share.
         let camera = plan.camera_moves().then(|| CameraText::new(&plan.camera(frame), unit));
-        let lights = plan.lights_move().then(|| stage::lights(plan, frame.time, unit));
+        let lights = plan.lights_move().then(|| stage::lights(plan.lights(frame), unit));
         let center = plan.lights_move().then(|| (plan.stage().center / unit).to_array());
         context! {
             camera => camera.map(|camera| Value::from(Serde(camera))),
@@ -149,6 +156,7 @@ impl FrameConstants {
             bodies_sdl => if self.with_all { format!("{solids_sdl}{showing_sdl}") } else { String::new() },
             solids_sdl,
             showing_sdl,
+            sdl,
             bodies,
         }
     }
@@ -234,7 +242,7 @@ mod tests {
 
         for (heading, value) in [
             ("## The values of `common.inc`", common(&scene, &stage, &materials)),
-            ("## The values of `frame.pov`", constants.of(&plan, &frame, String::new(), String::new())),
+            ("## The values of `frame.pov`", constants.of(&plan, &frame, Default::default(), None)),
             ("## The values of `animation.pov` and `animation.ini`", sequence(&scene, Span::of([0]))),
         ] {
             let mut found = BTreeSet::new();

@@ -2,10 +2,11 @@
 
 use glam::{DQuat, DVec3};
 
+use super::followed::FollowedValues;
 use super::framing::{self, Field, Framing, Free};
 use super::plots;
 use super::screen::Screen;
-use crate::scene::{Blur, Body, Camera, Output, Projection, Scene};
+use crate::scene::{Blur, Body, Camera, MeasureFormula, Output, Projection, Scene, VaryingPoint};
 use crate::simulate::{Bounds, Frame};
 
 /// The default distance between a camera and the body that it follows, in half-widths of the body. The body then fills an eighth of the
@@ -63,11 +64,19 @@ impl Placed {
     }
 
     /// The camera at a time (s). The followed body has the half-width `size` (m). It was at `start` in the first frame, and is at `here`
-    /// now.
-    fn moved(&self, camera: &Camera, size: f64, time: f64, [start, here]: [DVec3; 2]) -> Placed {
+    /// now. `value` returns the value of a formula of measures at that time.
+    fn moved(
+        &self,
+        camera: &Camera,
+        size: f64,
+        [start, here]: [DVec3; 2],
+        time: f64,
+        value: impl Fn(&MeasureFormula) -> f64,
+    ) -> Placed {
         let motion = &camera.motion;
-        let mut location = motion.location.as_ref().map_or(self.location, |location| location.at(time));
-        let mut look_at = motion.look_at.as_ref().map_or(self.look_at, |look_at| look_at.at(time));
+        let mut location =
+            motion.location.as_ref().map_or(self.location, |location| location.at(time, &value));
+        let mut look_at = motion.look_at.as_ref().map_or(self.look_at, |look_at| look_at.at(time, &value));
         if let Some(follow) = motion.follow {
             let away = if camera.location.is_some() { location - start } else { location - look_at };
             let usual = if camera.location.is_some() { away.length() } else { USUAL_DISTANCE * size };
@@ -84,7 +93,7 @@ impl Placed {
         }
         let lens = match (self.lens, &motion.angle) {
             (Lens::Perspective { .. }, Some(angle)) => {
-                Lens::Perspective { angle: angle.at(time).clamp(0.1, 179.9) }
+                Lens::Perspective { angle: angle.at(time, &value).clamp(0.1, 179.9) }
             }
             (lens, _) => lens,
         };
@@ -180,6 +189,7 @@ impl Placed {
 pub(super) struct MovingCamera {
     placed: Placed,
     moving: Option<Moving>,
+    followed: FollowedValues,
 }
 
 /// The motion of a camera.
@@ -187,20 +197,28 @@ pub(super) struct MovingCamera {
 struct Moving {
     camera: Camera,
     /// The followed body: its index, its position at the start (m) and its half-width (m).
-    followed: Option<(usize, DVec3, f64)>,
+    body: Option<(usize, DVec3, f64)>,
     /// The box within which the camera follows a body. `None` if there is no limit.
     within: Option<Bounds>,
 }
 
 impl MovingCamera {
     /// Creates a camera of a scene. If the scene gives no position, the camera looks at the bounds from the direction `towards`.
-    pub(super) fn new(camera: &Camera, bounds: Bounds, towards: DVec3, scene: &Scene) -> MovingCamera {
-        let followed = camera.motion.follow.map(|follow| {
+    pub(super) fn new(
+        camera: &Camera,
+        bounds: Bounds,
+        towards: DVec3,
+        scene: &Scene,
+        followed: &FollowedValues,
+    ) -> MovingCamera {
+        let camera = &at_start(camera, followed);
+        let body = camera.motion.follow.map(|follow| {
             let body = &scene.bodies[follow.body];
             (follow.body, body.start.location, half_width(body).unwrap_or(1.0))
         });
-        let moving = camera.motion.moves().then(|| Moving { camera: camera.clone(), followed, within: None });
-        MovingCamera { placed: Placed::new(camera, bounds, towards, scene), moving }
+        let moving = camera.motion.moves().then(|| Moving { camera: camera.clone(), body, within: None });
+        let placed = Placed::new(camera, bounds, towards, scene);
+        MovingCamera { placed, moving, followed: followed.clone() }
     }
 
     /// Limits the camera to follow its body only within a box.
@@ -219,17 +237,17 @@ impl MovingCamera {
         self.moving.is_some()
     }
 
-    /// The camera at a time (s), if the followed body stays at its initial position.
+    /// The camera at a time (s), if the followed body and all measures stay at their initial values.
     pub(super) fn early(&self, time: f64) -> Placed {
-        let Some(Moving { camera, followed, .. }) = &self.moving else { return self.placed };
-        let (_, start, size) = followed.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
-        self.placed.moved(camera, size, time, [start, start])
+        let Some(Moving { camera, body, .. }) = &self.moving else { return self.placed };
+        let (_, start, size) = body.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
+        self.placed.moved(camera, size, [start, start], time, self.followed.at_start())
     }
 
     /// The camera of a frame.
     pub(super) fn at(&self, frame: &Frame) -> Placed {
-        let Some(Moving { camera, followed, within }) = &self.moving else { return self.placed };
-        let (body, start, size) = followed.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
+        let Some(Moving { camera, body, within }) = &self.moving else { return self.placed };
+        let (body, start, size) = body.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
         let behind = camera.motion.follow.and_then(|follow| {
             let lag = follow.lag.unwrap_or(0.0);
             frame.past.lagging.iter().find(|lagging| lagging.is_of(follow.body, lag))
@@ -239,7 +257,26 @@ impl MovingCamera {
             None => frame.body(body).map_or(start, |body| body.location),
         };
         let here = within.map_or(here, |bounds| here.clamp(bounds.min, bounds.max));
-        self.placed.moved(camera, size, frame.time, [start, here])
+        self.placed.moved(camera, size, [start, here], frame.time, self.followed.at(frame))
+    }
+}
+
+/// Returns the camera with the initial location, target and angle that follow from the measures at the start.
+fn at_start(camera: &Camera, followed: &FollowedValues) -> Camera {
+    let value = followed.at_start();
+    let point = |point: &Option<VaryingPoint>| Some(point.as_ref()?.at(0.0, &value));
+    let motion = &camera.motion;
+    let projection = match (camera.projection, &motion.angle) {
+        (Projection::Perspective { .. }, Some(angle)) => {
+            Projection::Perspective { angle: angle.at(0.0, &value).clamp(0.1, 179.9) }
+        }
+        (projection, _) => projection,
+    };
+    Camera {
+        location: camera.location.or_else(|| point(&motion.location)),
+        look_at: camera.look_at.or_else(|| point(&motion.look_at)),
+        projection,
+        ..camera.clone()
     }
 }
 

@@ -2,8 +2,10 @@
 
 use glam::DVec3;
 
+use super::followed::FollowedValues;
 use super::stage::Stage;
-use crate::scene::{Color, Light, LightKind, Preset, Scene};
+use crate::scene::{Color, Light, LightKind, MeasureFormula, Preset, Scene};
+use crate::simulate::Frame;
 
 /// A light at a given time.
 #[derive(Clone, Debug, PartialEq)]
@@ -142,11 +144,12 @@ pub(super) struct Lights {
     center: DVec3,
     /// The radius of the visible scene, m. Suns are placed far outside.
     reach: f64,
+    followed: FollowedValues,
 }
 
 impl Lights {
-    pub(super) fn new(scene: &Scene, center: DVec3, reach: f64) -> Lights {
-        Lights { lights: scene.lights.clone(), center, reach }
+    pub(super) fn new(scene: &Scene, center: DVec3, reach: f64, followed: &FollowedValues) -> Lights {
+        Lights { lights: scene.lights.clone(), center, reach, followed: followed.clone() }
     }
 
     /// True if any of the lights moves.
@@ -154,15 +157,22 @@ impl Lights {
         self.lights.iter().any(Light::moves)
     }
 
-    /// The lights at a time (s).
-    pub(super) fn at(&self, time: f64) -> Vec<PlacedLight> {
-        self.lights.iter().map(|light| self.light(light, time)).collect()
+    /// The lights in a frame.
+    pub(super) fn at(&self, frame: &Frame) -> Vec<PlacedLight> {
+        let value = self.followed.at(frame);
+        self.lights.iter().map(|light| self.light(light, frame.time, &value)).collect()
     }
 
-    fn light(&self, light: &Light, time: f64) -> PlacedLight {
+    /// The lights at the start of the run.
+    pub(super) fn at_start(&self) -> Vec<PlacedLight> {
+        let value = self.followed.at_start();
+        self.lights.iter().map(|light| self.light(light, 0.0, &value)).collect()
+    }
+
+    fn light(&self, light: &Light, time: f64, value: impl Fn(&MeasureFormula) -> f64) -> PlacedLight {
         let (kind, location, size) = match &light.kind {
-            LightKind::Point { location } => (Lamp::Point, location.at(time), None),
-            LightKind::Area { location, size } => (Lamp::Area, location.at(time), Some(*size)),
+            LightKind::Point { location } => (Lamp::Point, location.at(time, value), None),
+            LightKind::Area { location, size } => (Lamp::Area, location.at(time, value), Some(*size)),
             // The distance is large enough to be outside the scene. It has no other effect, since the rays are parallel.
             LightKind::Sun { direction } => (Lamp::Sun, self.center - *direction * self.reach * 10.0, None),
         };

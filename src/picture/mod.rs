@@ -23,6 +23,7 @@ mod camera;
 mod catenary;
 mod color_maps;
 mod colors;
+mod followed;
 mod framing;
 mod ghosts;
 mod grid;

@@ -2,6 +2,7 @@
 //! the camera frames the start of the run or follows the only body.
 
 use super::camera::{MovingCamera, half_width};
+use super::followed::FollowedValues;
 use super::framing::{Field, rounded_outward, towards_camera};
 use super::sight::Sight;
 use crate::scene::{Body, Camera, Follow, Projection, Quantity, Scene};
@@ -43,7 +44,7 @@ pub enum Part {
 
 impl Scope {
     /// Chooses the part of a run that a camera of a scene frames.
-    pub(super) fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Scope {
+    pub(super) fn new(scene: &Scene, camera: &Camera, survey: &Survey, followed: &FollowedValues) -> Scope {
         let Some((all, starts)) = survey.spans.split_last() else {
             let arrows: [Reach; Quantity::SCALE_COUNT] = Default::default();
             let span = Span { until: 0.0, bounds: NOTHING, moving: NOTHING, seen: NOTHING, arrows };
@@ -58,7 +59,8 @@ impl Scope {
         let width = 2.0 * half_width(largest).unwrap_or(0.0);
         let seen = |span: &Span| {
             let bounds = rounded_outward(span.seen);
-            let eye = MovingCamera::new(camera, bounds, towards_camera(span.moving, Sight::of(scene)), scene);
+            let towards = towards_camera(span.moving, Sight::of(scene));
+            let eye = MovingCamera::new(camera, bounds, towards, scene, followed);
             width / eye.placed().width_of_view(span.bounds)
         };
         // The camera ignores strays: a few bodies that fly far away from many others.

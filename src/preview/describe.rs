@@ -385,7 +385,7 @@ fn stage(run: &PreviewRun, outcome: &Outcome) -> Stage {
             .map(|map| map.iter().map(|color| color.linear()).collect())
             .collect(),
         cameras: outcome.plans.iter().map(|plan| super::shown::Camera::of(plan.placed())).collect(),
-        lights: match plan.lights(0.0) {
+        lights: match plan.lights_at_start() {
             given if given.is_empty() => lights(&plan.usual_lights()),
             given => lights(&given),
         },

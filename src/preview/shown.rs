@@ -236,7 +236,7 @@ fn shown<'a>(scene: &Scene, plan: &'a Plan, frame: &Frame) -> Shown<'a> {
     let looks = plan.looks(frame);
     Shown {
         camera: Camera::of(&plan.camera(frame)),
-        lights: plan.lights_move().then(|| plan.lights(frame.time).iter().map(Light::of).collect()),
+        lights: plan.lights_move().then(|| plan.lights(frame).iter().map(Light::of).collect()),
         stroke: plan.stroke(frame),
         grid: plan.grid(frame).filter(|_| plan.camera_moves()),
         things,

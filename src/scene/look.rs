@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::MeasureFormula;
 use super::sdl::FileKind;
-use super::timed::{Timed, TimedVector};
+use super::varying::{Varying, VaryingPoint};
 use super::{Asset, Color, LibraryMaterial, LookNumber, Pattern, Preset};
 use crate::physics::Surface;
 
@@ -163,9 +164,10 @@ impl Finish {
 /// A camera. If a location or target is missing, jabuka derives it from the motion of the bodies.
 #[derive(Clone, Debug)]
 pub struct Camera {
-    /// The initial location of the camera, m. `None` for a location that jabuka derives.
+    /// The initial location of the camera, m. `None` for a location that jabuka derives, or that follows measures.
     pub location: Option<DVec3>,
-    /// The initial target of the camera, m: the point in the middle of the picture. `None` for a target that jabuka derives.
+    /// The initial target of the camera, m: the point in the middle of the picture. `None` for a target that jabuka derives, or that follows
+    /// measures.
     pub look_at: Option<DVec3>,
     /// The motion of the camera, such as an orbit around its target.
     pub motion: CameraMotion,
@@ -177,15 +179,24 @@ pub struct Camera {
     pub shutter: Option<Shutter>,
 }
 
+impl Camera {
+    /// Returns the formulas of measures that the camera follows.
+    pub fn formulas(&self) -> impl Iterator<Item = &MeasureFormula> {
+        let CameraMotion { location, look_at, angle, .. } = &self.motion;
+        let points = [location, look_at].into_iter().flatten().flat_map(VaryingPoint::formulas);
+        points.chain(angle.iter().filter_map(Varying::formula))
+    }
+}
+
 /// The motion of a camera. A quantity that is `None` keeps its initial value.
 #[derive(Clone, Debug, Default)]
 pub struct CameraMotion {
-    /// The location of the camera as a function of time, m.
-    pub location: Option<TimedVector>,
-    /// The target of the camera as a function of time, m: the point in the middle of the picture.
-    pub look_at: Option<TimedVector>,
-    /// The horizontal field of view of a perspective camera as a function of time, degrees.
-    pub angle: Option<Timed>,
+    /// The location of the camera as a function of time and of measures, m.
+    pub location: Option<VaryingPoint>,
+    /// The target of the camera as a function of time and of measures, m: the point in the middle of the picture.
+    pub look_at: Option<VaryingPoint>,
+    /// The horizontal field of view of a perspective camera as a function of time and of measures, degrees.
+    pub angle: Option<Varying>,
     /// The body that the camera follows. `None` if the camera follows no body.
     pub follow: Option<Follow>,
     /// The period of the camera's orbit about the vertical axis through its target, s.
@@ -257,6 +268,15 @@ impl Light {
             LightKind::Sun { .. } => false,
         }
     }
+
+    /// Returns the formulas of measures that the light follows.
+    pub fn formulas(&self) -> impl Iterator<Item = &MeasureFormula> {
+        let location = match &self.kind {
+            LightKind::Point { location } | LightKind::Area { location, .. } => Some(location),
+            LightKind::Sun { .. } => None,
+        };
+        location.into_iter().flat_map(VaryingPoint::formulas)
+    }
 }
 
 impl Shutter {
@@ -297,12 +317,12 @@ pub enum LightKind {
     /// A point light, which shines in all directions.
     Point {
         /// The location of the light as a function of time, m.
-        location: TimedVector,
+        location: VaryingPoint,
     },
     /// A light with a size, which gives soft shadows.
     Area {
         /// The center of the light as a function of time, m.
-        location: TimedVector,
+        location: VaryingPoint,
         /// The diameter of the light source, m.
         size: f64,
     },
@@ -365,14 +385,38 @@ pub struct PovRay {
     pub assets: Vec<Asset>,
     /// The files that the POV-Ray code of a trusted scene names: the kind of each file, and its name in the code.
     pub reads: Vec<(FileKind, String)>,
-    /// The POV-Ray code that scripts contain before the bodies.
-    pub sdl: Option<String>,
+    /// The POV-Ray code that scripts contain before the bodies, in pieces. Empty without such code.
+    pub sdl: Vec<SdlPiece>,
     /// The length of one POV-Ray unit, m. `None` for a unit that jabuka derives from the size of the scene.
     pub unit: Option<f64>,
     /// The number of significant digits of numbers in scripts.
     pub digits: usize,
     /// The user's templates. They replace the built-in templates with the same names.
     pub templates: Vec<OwnTemplate>,
+}
+
+/// A piece of the scene's POV-Ray code.
+#[derive(Clone, Debug)]
+pub enum SdlPiece {
+    /// Code that is the same in all scripts.
+    Sdl(String),
+    /// The value of a formula at the time of the frame.
+    Value {
+        /// The formula as it is written in the scene.
+        text: String,
+        /// The formula.
+        formula: MeasureFormula,
+    },
+}
+
+impl SdlPiece {
+    /// Returns the formula of the piece. `None` if the piece is the same in all scripts.
+    pub fn formula(&self) -> Option<&MeasureFormula> {
+        match self {
+            SdlPiece::Sdl(_) => None,
+            SdlPiece::Value { formula, .. } => Some(formula),
+        }
+    }
 }
 
 /// A script template of the user.

@@ -108,6 +108,7 @@ mod timeline;
 mod units;
 mod value;
 mod value_map;
+mod varying;
 mod view;
 
 use std::path::{Path, PathBuf};
@@ -126,7 +127,7 @@ pub use label::{Corner, Format, Grid, GridPlane, Label, LabelPlace, Piece, Scale
 pub use library::{LibraryMaterial, MATERIALS, Pattern, PlainLook};
 pub use look::{
     Blur, Camera, CameraMotion, DecimalSign, Environment, Finish, Follow, Ground, Include, Layout, Light,
-    LightKind, Look, Material, Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
+    LightKind, Look, Material, Output, OwnTemplate, PovRay, Projection, SdlPiece, Shutter, Sky, View,
 };
 pub use mark::{Angle, Area, ArrowMark, ArrowOwner, Components, Distance, Leg};
 pub use measure::{
@@ -142,6 +143,7 @@ pub use showing::{Arrow, BodyAxes, Ghosts, Quantity, Showing, SpringLine, Spring
 pub use source::Override;
 pub use timeline::Timeline;
 pub use value_map::{LookAspect, LookNumber, ValueMap, Visibility};
+pub use varying::{Varying, VaryingPoint};
 
 use crate::diagnostic::Report;
 use crate::physics::Surface;
@@ -247,7 +249,7 @@ impl Scene {
         labels.chain(angles).chain(distances).chain(arrows).chain(components)
     }
 
-    /// Returns all formulas of measures: of texts, plots, colors, and of the aggregates in them.
+    /// Returns all formulas of measures: of texts, plots, looks, cameras, lights, SDL, and of the aggregates in them.
     pub fn formulas(&self) -> impl Iterator<Item = &MeasureFormula> {
         let of_texts = self.texts().flatten().filter_map(|piece| match piece {
             Piece::Value { formula, .. } => Some(formula),
@@ -261,7 +263,21 @@ impl Scene {
         let of_colors = self.color_maps.iter().map(|map| &map.of);
         let of_numbers = self.value_maps.iter().map(|map| &map.of);
         let of_looks = of_colors.chain(of_numbers).chain(&self.conditions);
-        of_texts.chain(of_plots).chain(of_aggregates).chain(of_looks)
+        let of_sdl = self.povray.sdl.iter().filter_map(SdlPiece::formula);
+        let of_stage =
+            self.cameras().flat_map(Camera::formulas).chain(self.lights.iter().flat_map(Light::formulas));
+        of_texts.chain(of_plots).chain(of_aggregates).chain(of_looks).chain(of_sdl).chain(of_stage)
+    }
+
+    /// Returns all cameras: the main one, then those of the views.
+    pub fn cameras(&self) -> impl Iterator<Item = &Camera> {
+        std::iter::once(&self.camera).chain(self.views.iter().map(|view| &view.camera))
+    }
+
+    /// Returns whether a camera or a light follows measures.
+    pub fn stage_follows_measures(&self) -> bool {
+        self.cameras().any(|camera| camera.formulas().next().is_some())
+            || self.lights.iter().any(|light| light.formulas().next().is_some())
     }
 
     /// Returns whether a formula shows a quantity of bodies for which `is` is true.
@@ -270,12 +286,11 @@ impl Scene {
         inputs.any(|input| matches!(input, Measure::Body(_, measure) if is(*measure)))
     }
 
-    /// Returns whether the pictures show values of the moment, in letters, as looks or as arrows of named forces.
+    /// Returns whether the pictures show values of the moment: in letters, as looks, as arrows of named forces, or by what cameras, lights and
+    /// SDL follow.
     pub fn shows_measures(&self) -> bool {
-        let has_looks =
-            !self.color_maps.is_empty() || !self.value_maps.is_empty() || !self.conditions.is_empty();
         let has_arrows = self.forces.iter().any(|force| force.arrow.is_some());
-        has_looks || has_arrows || self.writes_measures()
+        has_arrows || self.writes_measures() || self.formulas().next().is_some()
     }
 
     /// Returns whether the pictures have texts with values: labels, plots, color bars, or marks.

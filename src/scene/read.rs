@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 
-use crate::diagnostic::{Code, Diagnostic, nearest};
+use crate::diagnostic::{Code, Diagnostic, Span, nearest};
 use crate::scene::Color;
 use crate::scene::drawn::Drawn;
 use crate::scene::grammar::{Bound, Kind};
@@ -133,6 +133,41 @@ pub(super) fn drawn(node: &Node, bound: Bound) -> Result<Drawn, Diagnostic> {
         Value::Integer(_) | Value::Float(_) => number(node, bound).map(Drawn::Constant),
         _ => Err(wrong_type(node, &Kind::Drawn(bound))),
     }
+}
+
+/// A number, a formula of the time, or the text of a formula of measures, which the names of the scene's things give a meaning.
+#[derive(Clone, Debug)]
+pub(in crate::scene) enum Written<'a> {
+    Timed(Timed),
+    Measured(&'a str, Span),
+}
+
+/// Reads a number within a bound, or a formula of the time and of measures. Does not check the values of a formula.
+pub(super) fn varying(node: &Node, bound: Bound) -> Result<Written<'_>, Diagnostic> {
+    match &node.value {
+        Value::String(text) => Ok(Written::Measured(text, node.span)),
+        Value::Formula(formula) => Ok(Written::Timed(Timed::Formula(formula.clone()))),
+        Value::Integer(_) | Value::Float(_) => {
+            number(node, bound).map(|number| Written::Timed(Timed::Constant(number)))
+        }
+        // The formula of the time has been reported. Formulas of measures beside it are still read.
+        Value::Invalid => Ok(Written::Timed(Timed::Constant(0.0))),
+        _ => Err(wrong_type(node, &Kind::Varying(bound))),
+    }
+}
+
+/// Reads a list of three items: numbers within a bound, or formulas of the time and of measures. Returns one error for each wrong item.
+pub(super) fn varying_point(node: &Node, bound: Bound) -> Result<[Written<'_>; 3], Vec<Diagnostic>> {
+    let items = items(node, &Kind::VaryingNumbers(3, bound), 3, 3).map_err(|error| vec![error])?;
+    let mut errors = Vec::new();
+    let mut read = |item| {
+        varying(item, bound).unwrap_or_else(|error| {
+            errors.push(error);
+            Written::Timed(Timed::Constant(0.0))
+        })
+    };
+    let point = [read(&items[0]), read(&items[1]), read(&items[2])];
+    if errors.is_empty() { Ok(point) } else { Err(errors) }
 }
 
 /// Reads a list of three items: numbers within a bound, or formulas of the time. Returns one error for each wrong item.

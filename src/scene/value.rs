@@ -73,6 +73,10 @@ pub(in crate::scene) struct SharedText;
 pub(in crate::scene) struct Timed;
 /// A list of three items, each a number or a formula of the time.
 pub(in crate::scene) struct TimedVector;
+/// A number, or a formula of the time and of measures.
+pub(in crate::scene) struct Varying;
+/// A list of three items, each a number or a formula of the time and of measures.
+pub(in crate::scene) struct VaryingPoint;
 /// A number, or a formula with random numbers that is evaluated for each particle.
 pub(in crate::scene) struct Drawn;
 /// A number, or a formula of a body's quantities.
@@ -99,6 +103,10 @@ value!(Timed => timed::Timed, Timed, |node, Kind::Timed(bound)| read::timed(node
     |given| given.number().map(timed::Timed::Constant));
 value!(TimedVector => timed::TimedVector, TimedVector,
     |node, Kind::TimedNumbers(_, bound)| read::timed_vector(node, *bound).ok(), |_given| None);
+value!(Varying => read::Written<'a>, Varying, |node, Kind::Varying(bound)| read::varying(node, *bound).ok(),
+    |given| given.number().map(|number| read::Written::Timed(timed::Timed::Constant(number))));
+value!(VaryingPoint => [read::Written<'a>; 3], VaryingPoint,
+    |node, Kind::VaryingNumbers(_, bound)| read::varying_point(node, *bound).ok(), |_given| None);
 value!(Drawn => drawn::Drawn, Drawn, |node, Kind::Drawn(bound)| read::drawn(node, *bound).ok(),
     |given| given.number().map(drawn::Drawn::Constant));
 value!(OfBody => law::OfBody, OfBody, |node, Kind::OfBody(names)| read::of_body(node, names).ok(), |_given| None);

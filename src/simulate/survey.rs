@@ -12,6 +12,8 @@ mod stretched;
 #[cfg(test)]
 mod tests;
 
+use std::sync::Arc;
+
 use arrows::Arrows;
 pub use corrected::Corrected;
 pub use crossing::Crossing;
@@ -30,7 +32,7 @@ use super::requested_sizes::RequestedSizes;
 use super::sectors::Sweeps;
 use super::span::{ArrowNow, Spans};
 use super::{
-    Bounds, EnergyError, EnergyScale, Frame, Frames, Measures, MomentState, SimulateError, Span, world,
+    Bounds, EnergyError, EnergyScale, Frame, Frames, Measures, MomentState, Past, SimulateError, Span, world,
 };
 use crate::physics::{BodySnapshot, LawResidual};
 use crate::scene::Scene;
@@ -67,6 +69,8 @@ pub struct Survey {
     pub laws: Vec<LawResidual>,
     /// The joint that gives way most under time-stepping. `None` if all joints hold well.
     pub stretched: Option<StretchedJoint>,
+    /// The first frame, without its past and its particles. `None` unless a camera or a light follows measures.
+    pub first: Option<Arc<Frame>>,
     /// The points of each curve of all plots, in the order of the scene. In long runs, only the points with the lowest and the highest
     /// values of neighboring frames.
     pub curves: Vec<Vec<CurvePoint>>,
@@ -146,6 +150,7 @@ pub struct Surveyor<'a> {
     /// A selection of the particles, to estimate the space of all.
     clouds: Clouds,
     corrected: Option<Corrected>,
+    first: Option<Arc<Frame>>,
     requested: RequestedSizes,
     arrows: Arrows<'a>,
     measures: Measures,
@@ -186,6 +191,7 @@ impl<'a> Surveyor<'a> {
             overlaps: Watch::new(scene),
             clouds: Clouds::thinned(scene, SOME_PARTICLES),
             corrected: None,
+            first: None,
             requested: RequestedSizes::new(scene),
             arrows: Arrows::new(scene),
             measures: Measures::new(scene),
@@ -215,6 +221,9 @@ impl<'a> Surveyor<'a> {
         self.overlaps.see(frame);
         if frame.index == 0 {
             self.corrected = Corrected::find(scene, frame);
+            self.first = scene
+                .stage_follows_measures()
+                .then(|| Arc::new(Frame { past: Past::default(), particles: Vec::new(), ..frame.clone() }));
         }
         let loads = super::loads(scene, frame);
         self.requested.see(scene, frame, &loads);
@@ -271,6 +280,7 @@ impl<'a> Surveyor<'a> {
             overlaps,
             clouds,
             corrected,
+            first,
             requested,
             contacts,
             laws,
@@ -295,6 +305,7 @@ impl<'a> Surveyor<'a> {
             fall: falls.finish(),
             overlap: overlaps.finish(),
             corrected,
+            first,
             requested,
             contacts: contacts.map(|contacts| contacts.rounded(error.magnitude)),
             laws,

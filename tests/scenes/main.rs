@@ -5,6 +5,7 @@ mod color_maps;
 mod coming_and_going;
 mod contacts;
 mod first;
+mod followed;
 mod given_motion;
 mod joints;
 mod looks;

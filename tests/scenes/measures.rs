@@ -1,4 +1,5 @@
-//! Each measure has the same value wherever it is said: in a label, in a plot, in the colors of bodies, and in the tables that have it.
+//! Each measure has the same value wherever it is said: in a label, in a plot, in the colors of bodies, in SDL, in the location of a light,
+//! and in the tables that have it.
 
 use std::collections::BTreeSet;
 
@@ -110,6 +111,14 @@ fn each_measure_has_one_value_in_labels_plots_and_tables() {
              material.color.map = {{ of = '{name}', range = [-50, 50], bar = false }}\n"
         );
     }
+    for (number, name) in names.iter().enumerate() {
+        text += &format!("[light.l{number}]\npoint.location = ['{name}', 0, 0]\n");
+    }
+    text += "[povray]\ndigits = 15\nsdl = '''\n";
+    for (number, name) in names.iter().enumerate() {
+        text += &format!("#declare V{number} = ${{{name}}};\n");
+    }
+    text += "'''\n";
     let scene = Scene::parse(&text).unwrap();
     let run = Run::new(&scene).unwrap();
     let last = run.frames().last().unwrap().unwrap();
@@ -129,6 +138,16 @@ fn each_measure_has_one_value_in_labels_plots_and_tables() {
             "{name}: {drawn} in the plot, {} in the label",
             said(number)
         );
+    }
+    let script = run.emitter().script(&last).unwrap();
+    let lights = plan.lights(&last);
+    for (number, name) in names.iter().enumerate() {
+        let (_, rest) = script.split_once(&format!("#declare V{number} = ")).unwrap();
+        let filled: f64 = rest.split(';').next().unwrap().parse().unwrap();
+        let off = (filled - said(number)).abs();
+        assert!(off < 1e-9, "{name}: {filled} in SDL, {} in the label", said(number));
+        let off = (lights[number].location.x - said(number)).abs();
+        assert!(off < 1e-9, "{name}: a light is {off} m from {}", said(number));
     }
     let colors = plan.looks(&last).colors;
     // A name such as `kinetic` alone means the body that gets the color.

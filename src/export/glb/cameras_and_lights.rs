@@ -7,7 +7,7 @@ use super::materials::MappedLook;
 use super::motion::{NodePose, Recorder, SampledMotion};
 use crate::export::ExportError;
 use crate::picture::{Lamp, Lens, Placed, PlacedLight, Plan, Stage};
-use crate::scene::{Body, LookAspect, Output, Scene, Visibility};
+use crate::scene::{Body, LookAspect, Output, Visibility};
 use crate::simulate::{Recorded, Selection};
 
 /// The widest angle of view in the file, degrees. glTF does not allow 180 degrees.
@@ -57,7 +57,7 @@ impl CamerasAndLights {
         motion.append(ways);
         let cameras = names.into_iter().zip(seen);
         let cameras = cameras.map(|(name, seen)| seen.camera(name, scene.output, &stage)).collect();
-        let lights = lights(scene, &plans[0], selection, motion)?;
+        let lights = lights(run, &plans[0], selection, motion)?;
         let (looks, sizes) = looks(run, &plans[0], selection)?;
         Ok(CamerasAndLights { cameras, lights, stage, looks, sizes })
     }
@@ -153,15 +153,19 @@ impl CameraRange {
 
 /// Converts the lights of the scene, or the default lights if it has none. Appends their motion to `motion`.
 fn lights(
-    scene: &Scene,
+    run: &Recorded<'_>,
     plan: &Plan,
     selection: &Selection,
     motion: &mut SampledMotion,
 ) -> Result<Vec<Light>, ExportError> {
-    let frames = (0..scene.simulation.timeline.frames()).filter(|&frame| selection.contains(frame));
-    let mut times = frames.map(|frame| scene.simulation.timeline.time(frame));
-    let first = times.next().unwrap_or(0.0);
-    let mut shining = plan.lights(first);
+    let timeline = run.scene().simulation.timeline;
+    let first = (0..timeline.frames()).find(|&frame| selection.contains(frame));
+    let first = first.map_or(0.0, |frame| timeline.time(frame));
+    let mut exposures = if plan.lights_move() { Some(run.exposures(selection)) } else { None };
+    let mut shining = match exposures.as_mut().and_then(Iterator::next).transpose()? {
+        Some(exposure) => plan.lights(&exposure.frame),
+        None => plan.lights_at_start(),
+    };
     if shining.is_empty() {
         shining = plan.usual_lights();
     }
@@ -179,10 +183,9 @@ fn lights(
     let name = |i: usize| format!("light {}", shining[i].name);
     let mut ways = Recorder::new(motion.times().len());
     ways.add(poses(&shining).into_iter(), first, name, &mut motion.budget)?;
-    if plan.lights_move() {
-        for time in times {
-            ways.add(poses(&plan.lights(time)).into_iter(), time, name, &mut motion.budget)?;
-        }
+    for exposure in exposures.into_iter().flatten() {
+        let frame = exposure?.frame;
+        ways.add(poses(&plan.lights(&frame)).into_iter(), frame.time, name, &mut motion.budget)?;
     }
     motion.append(ways);
     Ok((0..shining.len()).map(|i| light(name(i), &shining[i], plan.stage())).collect())

@@ -1,6 +1,7 @@
 //! The size of the largest body in the picture, to warn if no body is large enough to be seen.
 
 use super::super::camera::{MovingCamera, half_width};
+use super::super::followed::FollowedValues;
 use super::super::framing;
 use super::super::scope::{Part, largest};
 use super::super::sight::Sight;
@@ -28,12 +29,14 @@ impl Largest {
         camera: &Camera,
         survey: &Survey,
         eye: &MovingCamera,
+        followed: &FollowedValues,
     ) -> Option<Largest> {
         let body: &Body = largest(scene)?;
         let whole = survey.spans.last()?;
         let pixels = |view: f64| 2.0 * half_width(body).unwrap_or(0.0) / view * f64::from(scene.output.width);
         let towards = framing::towards_camera(whole.moving, Sight::of(scene));
-        let on_whole = MovingCamera::new(camera, framing::rounded_outward(whole.seen), towards, scene);
+        let seen = framing::rounded_outward(whole.seen);
+        let on_whole = MovingCamera::new(camera, seen, towards, scene, followed);
         Some(Largest {
             name: body.name.to_string(),
             pixels: pixels(narrowest_view(scene, eye, whole.bounds)),

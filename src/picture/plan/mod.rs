@@ -15,7 +15,8 @@ pub use written::Written;
 use self::largest::narrowest_view;
 use super::arrows::{Arrow, ArrowSizes, Arrows, round_scales};
 use super::bar::{Bar, ScaleBars};
-use super::camera::{MovingCamera, Placed};
+use super::camera::{Lens, MovingCamera, Placed};
+use super::followed::FollowedValues;
 use super::ghosts::Ghosts;
 use super::grid::{GridLayout, GridPlan};
 use super::in_front::Planes;
@@ -33,8 +34,8 @@ use super::stage::{Scenery, Stage, stroke};
 use super::thing::{PlannedThing, Thing};
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
-use crate::scene::{Camera, Color, Quantity, Scene};
-use crate::simulate::{Bounds, Frame, Ghost, Measures, Survey};
+use crate::scene::{Camera, Color, MeasureFormula, Quantity, Scene};
+use crate::simulate::{Bounds, Frame, Ghost, Survey};
 
 /// Everything that the pictures of one camera have in common in all frames of a run. The plan is made once, and gives the contents of each
 /// picture.
@@ -42,6 +43,7 @@ use crate::simulate::{Bounds, Frame, Ghost, Measures, Survey};
 pub struct Plan {
     stage: Stage,
     eye: MovingCamera,
+    followed: FollowedValues,
     lights: Lights,
     lights_move: bool,
     arrows: Arrows,
@@ -89,11 +91,14 @@ pub(crate) fn has_texts(scene: &Scene) -> bool {
 impl Plan {
     /// Plans the pictures of a scene by one of its cameras.
     pub fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Plan {
-        let scope = Scope::new(scene, camera, survey);
+        let followed = FollowedValues::new(scene, survey);
+        let measures = Arc::clone(followed.measures());
+        let scope = Scope::new(scene, camera, survey, &followed);
         let (span, whole) = (&scope.span, scope.whole);
         let towards = framing::towards_camera(span.moving, Sight::of(scene));
         let eye_on = |bounds: Bounds| {
-            MovingCamera::new(&scope.camera, framing::rounded_outward(bounds), towards, scene)
+            let bounds = framing::rounded_outward(bounds);
+            MovingCamera::new(&scope.camera, bounds, towards, scene, &followed)
         };
         // The sizes of arrows and grid are chosen for a camera that sees the bodies. The final camera also sees the ends of arrows and
         // grid.
@@ -120,7 +125,6 @@ impl Plan {
         };
         let placed = eye.placed();
         let early = eye.early(0.0).width_of_view(whole);
-        let measures = Arc::new(Measures::new(scene));
         let arrows = Arrows::new(scene, longest, measures.clone());
         let width = stroke(early, scene.output);
         let sizes = Sizes {
@@ -132,7 +136,7 @@ impl Plan {
         // The ground is placed below the bodies. Arrows and axes may extend below the ground.
         let stage = Stage::new(scene, scenery, whole, placed);
         let distance = placed.location().distance(stage.center);
-        let lights = Lights::new(scene, stage.center, stage.size.max(distance));
+        let lights = Lights::new(scene, stage.center, stage.size.max(distance), &followed);
         let still = ruler.as_ref().filter(|_| !eye.moves());
         let links = Links::new(scene, survey);
         let narrowest = narrowest_view(scene, &eye, whole);
@@ -158,11 +162,12 @@ impl Plan {
             marks: Marks::new(scene, &measures, &stage, (placed, early), ink),
             arrow_marks: ArrowMarks::new(scene),
             screen: has_texts(scene).then(|| placed.screen()),
-            largest: Largest::seen(scene, camera, survey, &eye),
+            largest: Largest::seen(scene, camera, survey, &eye, &followed),
             part: scope.part,
             sizes,
             stage,
             eye,
+            followed,
         }
     }
 
@@ -189,11 +194,14 @@ impl Plan {
     /// Names the camera or a light if its position in a frame is not finite. Formulas for positions were checked at the times of frames
     /// only.
     pub(crate) fn lost(&self, frame: &Frame) -> Option<String> {
-        let is_lost = |camera: &Placed| !camera.location().is_finite() || !camera.look_at().is_finite();
+        let is_lost = |camera: &Placed| {
+            let has_angle = !matches!(camera.lens(), Lens::Perspective { angle } if !angle.is_finite());
+            !has_angle || !camera.location().is_finite() || !camera.look_at().is_finite()
+        };
         if self.camera_moves() && is_lost(&self.camera(frame)) {
             return Some("the camera".to_owned());
         }
-        let lights = if self.lights_move { self.lights(frame.time) } else { Vec::new() };
+        let lights = if self.lights_move { self.lights(frame) } else { Vec::new() };
         lights
             .iter()
             .find(|light| !light.location.is_finite())
@@ -210,9 +218,19 @@ impl Plan {
         self.eye.moves()
     }
 
-    /// The lights of the scene at a time (s). If the list is empty, renderers use the default lights.
-    pub fn lights(&self, time: f64) -> Vec<PlacedLight> {
-        self.lights.at(time)
+    /// The lights of the scene in a frame. If the list is empty, renderers use the default lights.
+    pub fn lights(&self, frame: &Frame) -> Vec<PlacedLight> {
+        self.lights.at(frame)
+    }
+
+    /// The lights of the scene at the start of the run. If the list is empty, renderers use the default lights.
+    pub fn lights_at_start(&self) -> Vec<PlacedLight> {
+        self.lights.at_start()
+    }
+
+    /// The value of a formula of measures in a frame. NaN if a measure is unknown then.
+    pub fn value(&self, formula: &MeasureFormula, frame: &Frame) -> f64 {
+        self.followed.at(frame)(formula)
     }
 
     /// The default lights, which never move.

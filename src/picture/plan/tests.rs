@@ -27,7 +27,7 @@ fn what_nobody_asks_for_is_not_there() {
     assert!(plan.links(&frame).is_empty() && plan.trails(&frame).is_empty());
     assert!(plan.texts(&frame).is_empty() && plan.ghosts(&frame).next().is_none());
     assert!(plan.grid(&frame).is_none() && plan.bar(&frame).is_none() && plan.screen(&frame).is_none());
-    assert!(plan.lights(0.5).is_empty() && !plan.camera_moves() && !plan.lights_move());
+    assert!(plan.lights_at_start().is_empty() && !plan.camera_moves() && !plan.lights_move());
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::marks::Known;
 use super::read::figure;
 use super::view::View as Keys;
 use super::{Context, motion};
@@ -9,31 +10,25 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::grammar::camera::{camera, follow, orbit};
 use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::{Key, KeySpec};
-use crate::scene::timed::{Timed, TimedVector};
-use crate::scene::value;
-use crate::scene::{Blur, Body, Camera, CameraMotion, Follow, Projection, Shutter, SimulationSettings, View};
+use crate::scene::{
+    Blur, Camera, CameraMotion, Follow, Projection, Shutter, SimulationSettings, Varying, VaryingPoint, View,
+    value,
+};
 
 /// The value of `--view` that selects all views. No view can have this name.
 const ALL_VIEWS: &str = "all";
 
+/// The horizontal field of view of a camera before its first frame, degrees, if it follows measures.
+const USUAL_ANGLE: f64 = 40.0;
+
 /// Reads the main camera from `[camera]`.
-pub(super) fn read(
-    root: &Keys<'_>,
-    simulation: &SimulationSettings,
-    bodies: &[Body],
-    context: &mut Context<'_>,
-) -> Camera {
-    camera(&[root.table(&scene::CAMERA)], simulation, bodies, context)
+pub(super) fn read(known: Known<'_, '_>, context: &mut Context<'_>) -> Camera {
+    camera(&[known.root.table(&scene::CAMERA)], known, context)
 }
 
 /// Reads the cameras of all `[view.NAME]` tables. Each view inherits missing keys from the main camera.
-pub(super) fn views(
-    root: &Keys<'_>,
-    simulation: &SimulationSettings,
-    bodies: &[Body],
-    context: &mut Context<'_>,
-) -> Vec<View> {
-    let main = root.table(&scene::CAMERA);
+pub(super) fn views(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<View> {
+    let main = known.root.table(&scene::CAMERA);
     let read = |(name, span, keys): (&str, _, Keys<'_>)| {
         let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
         if name.is_empty() || name == ALL_VIEWS || !name.chars().all(plain) {
@@ -42,45 +37,46 @@ pub(super) fn views(
                 format!("a view names a folder: use letters, digits, `-` and `_`, and not `{ALL_VIEWS}`");
             context.diagnostics.push(Diagnostic::error(Code::BadViewName, message).at(span, "").help(help));
         }
-        View { name: name.to_owned(), camera: camera(&[keys, main], simulation, bodies, context) }
+        View { name: name.to_owned(), camera: camera(&[keys, main], known, context) }
     };
-    root.named(&scene::VIEW).into_iter().map(read).collect()
+    known.root.named(&scene::VIEW).into_iter().map(read).collect()
 }
 
 /// Reads a camera from one or two tables. Each value comes from the first table that has its key.
-fn camera(
-    tables: &[Keys<'_>],
-    simulation: &SimulationSettings,
-    bodies: &[Body],
-    context: &mut Context<'_>,
-) -> Camera {
+fn camera(tables: &[Keys<'_>], known: Known<'_, '_>, context: &mut Context<'_>) -> Camera {
+    let simulation = known.simulation;
     let vector = |key: &Key<Option<DVec3>>| tables.iter().find_map(|keys| keys.get(key));
-    let timed = |key: &Key<Option<value::TimedVector>>| tables.iter().find_map(|keys| keys.get(key));
     // Take the first table in which the user wrote the key. Otherwise, a default value of the view would hide the main camera's value.
     let of = |key: &KeySpec| tables.iter().find(|keys| keys.has(key)).unwrap_or(&tables[0]);
     for key in [&camera::LOCATION.spec, &camera::LOOK_AT.spec, &camera::ANGLE.spec] {
         motion::finite(tables[0].node(key), simulation, context);
     }
-    let (location, look_at) = (timed(&camera::LOCATION), timed(&camera::LOOK_AT));
-    let angle = of(&camera::ANGLE.spec).get(&camera::ANGLE);
+    let [location, look_at] =
+        [&camera::LOCATION, &camera::LOOK_AT].map(|key| point(key, tables, known, context));
+    let before = context.diagnostics.len();
+    let angle = known.number("camera", of(&camera::ANGLE.spec).get(&camera::ANGLE), context);
+    if !tables[0].has(&camera::ANGLE) {
+        context.diagnostics.truncate(before);
+    }
     // A view with its own location does not move with the main camera.
     let movers = if tables[0].has(&camera::LOCATION) { &tables[..1] } else { tables };
     let mut moving = CameraMotion {
-        location: location.clone().filter(TimedVector::changes),
-        look_at: look_at.clone().filter(TimedVector::changes),
-        angle: Some(angle.clone()).filter(Timed::changes),
+        location: location.clone().filter(VaryingPoint::changes),
+        look_at: look_at.clone().filter(VaryingPoint::changes),
+        angle: Some(angle.clone()).filter(Varying::changes),
         follow: movers.iter().find_map(|keys| follow(keys, context)),
         orbit: movers
             .iter()
             .find_map(|keys| keys.variant(&camera::ORBIT)?.get(&orbit::PERIOD))
             .filter(|period| *period != 0.0),
     };
-    nobody(&tables[0], &moving, simulation, bodies, context);
-    let (mut location, mut look_at) = (location.map(|v| v.at(0.0)), look_at.map(|v| v.at(0.0)));
+    nobody(&tables[0], &moving, known, context);
+    let [mut location, mut look_at] = [location, look_at].map(|point| point?.at_start());
     if let Some(keyframes) = movers.iter().find_map(|keys| keys.variant(&camera::KEYFRAMES)) {
         let [places, aims] = motion::camera_keyframes(&keyframes, look_at, context);
         location = places.as_ref().map(|track| track.at(0.0)).or(location);
         look_at = aims.as_ref().map(|track| track.at(0.0)).or(look_at);
+        let [places, aims] = [places, aims].map(|track| track.map(VaryingPoint::Timed));
         (moving.location, moving.look_at) = (places.or(moving.location), aims.or(moving.look_at));
     }
     let number = |key: &Key<Option<f64>>| tables.iter().find_map(|keys| keys.get(key));
@@ -102,7 +98,8 @@ fn camera(
         projection: if orthographic {
             Projection::Orthographic { width: number(&camera::WIDTH) }
         } else {
-            Projection::Perspective { angle: angle.at(0.0).clamp(0.1, 179.9) }
+            // An angle that follows measures is known in each frame only.
+            Projection::Perspective { angle: angle.at(0.0, |_| USUAL_ANGLE).clamp(0.1, 179.9) }
         },
         blur: number(&camera::APERTURE).map(|aperture| Blur {
             aperture,
@@ -125,6 +122,23 @@ fn camera(
     camera
 }
 
+/// Reads a point from the first table that has its key. Reports its errors only if this is the camera's own table: the errors of an
+/// inherited point are reported for the main camera.
+fn point(
+    key: &Key<Option<value::VaryingPoint>>,
+    tables: &[Keys<'_>],
+    known: Known<'_, '_>,
+    context: &mut Context<'_>,
+) -> Option<VaryingPoint> {
+    let written = tables.iter().find_map(|keys| keys.get(key))?;
+    let before = context.diagnostics.len();
+    let point = known.point("camera", written, context);
+    if !tables[0].has(key) {
+        context.diagnostics.truncate(before);
+    }
+    Some(point)
+}
+
 /// Reads the body that the camera follows. `None` if the camera follows no body.
 fn follow(keys: &Keys<'_>, context: &Context<'_>) -> Option<Follow> {
     let follow = keys.variant(&camera::FOLLOW)?;
@@ -137,16 +151,10 @@ fn follow(keys: &Keys<'_>, context: &Context<'_>) -> Option<Follow> {
 }
 
 /// Warns of a camera that follows a body which is never present. Ignores an inherited `follow`, which is reported for the main camera.
-fn nobody(
-    keys: &Keys<'_>,
-    motion: &CameraMotion,
-    simulation: &SimulationSettings,
-    bodies: &[Body],
-    context: &mut Context<'_>,
-) {
-    let Some(body) = motion.follow.and_then(|follow| bodies.get(follow.body)) else { return };
+fn nobody(keys: &Keys<'_>, motion: &CameraMotion, known: Known<'_, '_>, context: &mut Context<'_>) {
+    let Some(body) = motion.follow.and_then(|follow| known.things.bodies.get(follow.body)) else { return };
     let span = keys.variant(&camera::FOLLOW).and_then(|follow| follow.span(&follow::BODY));
-    if let Some(span) = span.filter(|_| !body.presence.overlaps(0.0, simulation.timeline.end())) {
+    if let Some(span) = span.filter(|_| !body.presence.overlaps(0.0, known.simulation.timeline.end())) {
         let message = format!("the camera follows `{}`, which is never there", body.name);
         let warning = Diagnostic::warning(Code::NeverThere, message);
         context.diagnostics.push(warning.at(span, "it looks where the body would come"));

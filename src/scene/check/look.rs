@@ -1,5 +1,6 @@
 //! Reads the `look` of bodies, `[light.NAME]`, `[environment]` and `[output]`.
 
+use super::marks::Known;
 use super::view::View;
 use super::{Context, motion, value_map};
 use crate::diagnostic::{Code, Diagnostic};
@@ -11,7 +12,7 @@ use crate::scene::grammar::shapes::{sdl, shape};
 use crate::scene::value::{self, Text};
 use crate::scene::{
     Body, BodyLook, Color, DecimalSign, Environment, Ground, Layout, Light, LightKind, LookNumber, Output,
-    Preset, SimulationSettings, Sky, Visibility,
+    Preset, Sky, Visibility,
 };
 
 /// Reads the `look` of a body: the scale at which it is drawn, whether it is drawn, and its raw SDL.
@@ -51,31 +52,32 @@ pub(super) fn of_body(name: &str, view: &View<'_>, shape: &Shape, context: &mut 
     }
 }
 
-pub(super) fn lights(
-    root: &View<'_>,
-    simulation: &SimulationSettings,
-    context: &mut Context<'_>,
-) -> Vec<Light> {
+pub(super) fn lights(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<Light> {
+    let simulation = known.simulation;
     let read = |(name, _, view): (&str, _, View<'_>)| {
         motion::finite(view.table(&light::POINT).node(&point::LOCATION), simulation, context);
         motion::finite(view.table(&light::AREA).node(&area::LOCATION), simulation, context);
         Some(Light {
             name: name.to_owned(),
-            kind: light_kind(&view)?,
+            kind: light_kind(&view, known, context)?,
             color: view.get(&light::COLOR),
             intensity: view.get(&light::INTENSITY),
             shadows: view.get(&light::SHADOWS),
         })
     };
-    root.named(&scene::LIGHT).into_iter().filter_map(read).collect()
+    known.root.named(&scene::LIGHT).into_iter().filter_map(read).collect()
 }
 
-fn light_kind(view: &View<'_>) -> Option<LightKind> {
+fn light_kind(view: &View<'_>, known: Known<'_, '_>, context: &mut Context<'_>) -> Option<LightKind> {
+    let mut place = |written| known.point("light", written, context);
     if let Some(point) = view.variant(&light::POINT) {
-        return Some(LightKind::Point { location: point.get(&point::LOCATION)? });
+        return Some(LightKind::Point { location: place(point.get(&point::LOCATION)?) });
     }
     if let Some(area) = view.variant(&light::AREA) {
-        return Some(LightKind::Area { location: area.get(&area::LOCATION)?, size: area.get(&area::SIZE)? });
+        return Some(LightKind::Area {
+            location: place(area.get(&area::LOCATION)?),
+            size: area.get(&area::SIZE)?,
+        });
     }
     let direction = view.variant(&light::SUN)?.get(&sun::DIRECTION)?;
     Some(LightKind::Sun { direction })

@@ -25,7 +25,7 @@ use crate::scene::{
 /// The vectors of a body that a leg of an angle can point along.
 const VECTORS: [Quantity; 3] = Quantity::OF_BODIES;
 
-/// What the texts of marks can name.
+/// What texts, cameras and lights can name.
 #[derive(Clone, Copy)]
 pub(super) struct Known<'a, 'b> {
     pub(super) root: &'a View<'b>,

@@ -38,6 +38,7 @@ mod trajectory;
 mod usable;
 mod validate;
 mod value_map;
+mod varying;
 
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -354,18 +355,18 @@ fn build(
         let help = "a body is two lines: `[body.ball]` and `shape.sphere.radius = 1`";
         context.diagnostics.push(Diagnostic::warning(Code::NoBodies, message).help(help));
     }
-    let mut povray = povray::read(&root, context);
-    povray.templates = templates::read(&root.table(&scene::POVRAY), options.templates.as_deref(), context);
     let things = measures::Things { bodies: &bodies, forces: &forces, joints: &joints };
+    let known = marks::Known { root: &root, things, simulation: &simulation };
+    let mut povray = povray::read(known, context);
+    povray.templates = templates::read(&root.table(&scene::POVRAY), options.templates.as_deref(), context);
     let labels = label::read(&root, things, &simulation.timeline, context);
     let (plots, places_of_plots) = plot::read(&root, things, context);
     let color_maps = color_map::read(&root, things, &materials, context);
     let value_maps = value_map::read(&root, things, context);
     let conditions = value_map::conditions(&root, things, context);
-    let camera = camera::read(&root, &simulation, &bodies, context);
+    let camera = camera::read(known, context);
     let output = look::output(&root.table(&scene::OUTPUT));
     context.diagnostics.extend(context.meshes.too_large_to_repeat(&simulation, &camera, output));
-    let known = marks::Known { root: &root, things, simulation: &simulation };
     let angles = marks::angles(known, context);
     let distances = marks::distances(known, context);
     let areas = marks::areas(known, context);
@@ -385,8 +386,10 @@ fn build(
         name: input.name.to_owned(),
         title: root.get(&scene::TITLE).map(str::to_owned),
         camera,
-        views: camera::views(&root, &simulation, &bodies, context),
-        lights: look::lights(&root, &simulation, context),
+        views: camera::views(known, context),
+        lights: look::lights(known, context),
+        pairs: std::mem::take(&mut context.pairs),
+        aggregates: std::mem::take(&mut context.aggregates),
         simulation,
         environment,
         labels,
@@ -401,8 +404,6 @@ fn build(
         color_maps,
         value_maps,
         conditions,
-        pairs: std::mem::take(&mut context.pairs),
-        aggregates: std::mem::take(&mut context.aggregates),
         output,
         digest: digest(input, options, included, &povray, context),
         bodies,

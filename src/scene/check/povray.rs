@@ -1,28 +1,33 @@
 //! Reads the table `[povray]`.
 
+use std::ops::Range;
 use std::path::{Component, Path};
 
-use super::view::View;
+use super::marks::Known;
+use super::measures::Reader;
 use super::{Context, asset, suggest};
 use crate::diagnostic::{Code, Diagnostic, Sources, Span};
 use crate::scene::expand::in_string;
 use crate::scene::grammar::scene::{povray, scene};
 use crate::scene::sdl::{INCLUDES, WRITING_INCLUDES};
 use crate::scene::source::{Node, file};
-use crate::scene::{Include, PovRay};
+use crate::scene::{Include, PovRay, SdlPiece};
 
 /// The maximum size of an include file, in bytes. Every script contains the whole file.
 const MAX_INCLUDE_BYTES: u64 = 1 << 20;
 
-pub(super) fn read(root: &View<'_>, context: &mut Context<'_>) -> PovRay {
-    let view = root.table(&scene::POVRAY);
+pub(super) fn read(known: Known<'_, '_>, context: &mut Context<'_>) -> PovRay {
+    let view = known.root.table(&scene::POVRAY);
     let items = view.list(&povray::INCLUDE).unwrap_or_default();
     let assets = asset::read(&view, context);
     PovRay {
         assets,
         reads: std::mem::take(&mut context.reads),
         include: items.iter().filter_map(|item| include(item, context.folder, context.trust).ok()).collect(),
-        sdl: view.get(&povray::SDL).map(str::to_owned),
+        sdl: view
+            .get(&povray::SDL)
+            .zip(view.span(&povray::SDL))
+            .map_or_else(Vec::new, |sdl| pieces(sdl, known, context)),
         unit: view.get(&povray::UNIT),
         digits: view.get(&povray::DIGITS) as usize,
         templates: Vec::new(),
@@ -96,13 +101,53 @@ fn include_text(
     Ok(Include::Text { name: name.to_owned(), text })
 }
 
-/// Returns a warning that raw SDL contains `${…}`: unlike in a label, it is not replaced by a value. `None` if the SDL has no `${`.
+/// Finds the values `${…}` in SDL, each with its braces. A value without an end reaches to the end of the text.
+fn values(text: &str) -> impl Iterator<Item = Range<usize>> {
+    let mut at = 0;
+    std::iter::from_fn(move || {
+        let start = at + text[at..].find("${")?;
+        at = text[start..].find('}').map_or(text.len(), |length| start + length + 1);
+        Some(start..at)
+    })
+}
+
+/// Returns SDL in which each value `${…}` is replaced by a number of the same length, as POV-Ray will read it.
+pub(super) fn with_numbers(text: &str) -> String {
+    let mut filled = text.to_owned();
+    for value in values(text) {
+        filled.replace_range(value.clone(), &format!("{:<1$}", "0", value.len()));
+    }
+    filled
+}
+
+/// Splits the scene's SDL into code that is the same in all scripts and values that change from frame to frame.
+fn pieces((text, span): (&str, Span), known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<SdlPiece> {
+    let code = |range: Range<usize>| SdlPiece::Sdl(text[range].to_owned());
+    let mut pieces = Vec::new();
+    let mut end = 0;
+    for value in values(text) {
+        pieces.push(code(end..value.start));
+        end = value.end;
+        let mut reader = Reader::new("SDL", (text, span), known.root, None, known.things, context);
+        if !text[value.clone()].ends_with('}') {
+            let error = Diagnostic::error(Code::ValueInSdl, "this value has no end");
+            reader.report(error, value.start..value.start + 2, "needs a `}`");
+            break;
+        }
+        let inner = value.start + 2..value.end - 1;
+        let formula = reader.formula_with_unit(inner.clone());
+        pieces.extend(formula.map(|formula| SdlPiece::Value { text: text[inner].to_owned(), formula }));
+    }
+    pieces.push(code(end..text.len()));
+    pieces
+}
+
+/// Returns a warning that raw SDL contains `${…}` where no value is filled in. `None` if the SDL has no `${`.
 pub(super) fn value_in_sdl(text: &str, span: Span, sources: &Sources) -> Option<Diagnostic> {
-    let start = text.find("${")?;
-    let end = text[start..].find('}').map_or(text.len(), |length| start + length + 1);
-    let raw = sources.raw(span);
-    let place = in_string(raw, text, &(start..end), span);
-    let message = "values are not filled into POV-Ray's own words";
-    let help = "only the text of a label has values; for words that change from frame to frame, take a template of your own (`jabuka templates`)";
+    let value = values(text).next()?;
+    let place = in_string(sources.raw(span), text, &value, span);
+    let message = "values are filled only into `povray.sdl`";
+    let help =
+        "declare an identifier there, `#declare Value = ${t};`; `sdl_before` and `sdl_after` can use it";
     Some(Diagnostic::warning(Code::ValueInSdl, message).at(place, "this stays as it is").help(help))
 }

@@ -6,6 +6,7 @@
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
+use super::povray::with_numbers;
 use super::{Context, asset, braces};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::expand::place;
@@ -68,6 +69,9 @@ pub(super) fn check(node: &Node, place: Where, context: &mut Context<'_>) {
     let Some(text) = node.as_str() else {
         return context.diagnostics.push(super::read::wrong_type(node, &Kind::Sdl(place)));
     };
+    // Values become numbers.
+    let filled = with_numbers(text);
+    let text = if place == Where::Top { filled.as_str() } else { text };
     if context.trust {
         context.diagnostics.extend(braces::unbalanced(text, node.span));
         trusted(text, node.span, context);

@@ -4,6 +4,7 @@ use super::corrections::Owner;
 use super::{Context, corrections, read, sdl, suggest};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::{Bound, Collection, KeySpec, Kind, Rule, SCENE, TableSpec, quoted};
+use crate::scene::sdl::Where;
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::{Include, MATERIALS};
 
@@ -163,6 +164,8 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
         Kind::Text | Kind::Boolean => {}
         Kind::Number(bound) => keep(read::number(node, *bound), context),
         Kind::Timed(bound) => keep(read::timed(node, *bound), context),
+        Kind::Varying(bound) => keep(read::varying(node, *bound), context),
+        Kind::VaryingNumbers(_, bound) => keep_all(read::varying_point(node, *bound), context),
         Kind::Drawn(bound) => keep(read::drawn(node, *bound), context),
         Kind::TimedNumbers(_, bound) => keep_all(read::timed_vector(node, *bound), context),
         Kind::OfBody(names) => keep(read::of_body(node, names), context),
@@ -180,6 +183,10 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
         Kind::Identifier => keep(read::identifier(node), context),
         Kind::Sdl(place) => {
             sdl::check(node, *place, context);
+            // Only the SDL of the whole scene has values.
+            if *place == Where::Top {
+                return;
+            }
             let text = node.as_str().unwrap_or_default();
             context.diagnostics.extend(super::povray::value_in_sdl(text, node.span, &context.sources));
         }

@@ -191,7 +191,7 @@ fn coordinate(body: &Table, member: &str) -> Option<(String, bool)> {
 
 /// Finds the references to a property of a body in a formula, such as `ball.x`. Each item is the byte range, the body's name and the
 /// property.
-fn members(text: &str) -> impl Iterator<Item = (Range<usize>, &str, &str)> {
+pub(super) fn members(text: &str) -> impl Iterator<Item = (Range<usize>, &str, &str)> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '[' | ']');
     text.match_indices('.').filter_map(move |(at, _)| {
         let begin = text[..at].trim_end_matches(is_part).len();

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use super::{Expander, repeat};
+use super::{Expander, corrections, repeat};
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::scene::RunMeasure;
 use crate::scene::drawn::DrawnFormula;
 use crate::scene::expression::Formula;
 use crate::scene::source::{Node, Value};
@@ -54,6 +55,22 @@ impl Expander<'_> {
             Some(_) if !changes => self.number(node),
             found => node.value = found.map_or(Value::Invalid, Value::Formula),
         }
+    }
+
+    /// Replaces a formula by its value or a compiled program, as [`Expander::timed`] does, but leaves a formula of measures as it is written.
+    pub(super) fn varying(&mut self, node: &mut Node) {
+        let Value::String(text) = &node.value else { return };
+        if !self.names_measures(text) {
+            self.timed(node);
+        }
+    }
+
+    /// Returns whether a formula names a measure, such as `ball.x` or `kinetic`.
+    fn names_measures(&self, text: &str) -> bool {
+        let is_of_run = |name: &str| RunMeasure::ALL.iter().any(|(known, ..)| *known == name);
+        let is_measure = |name: &str| name != "t" && is_of_run(name) && self.scope.value(name).is_none();
+        corrections::members(text).next().is_some()
+            || Formula::parse(text).is_ok_and(|formula| formula.names().any(|(name, _)| is_measure(name)))
     }
 
     fn time_formula(&mut self, formula: &Formula, text: Arc<str>, span: Span) -> Option<Arc<TimeFormula>> {

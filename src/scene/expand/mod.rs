@@ -179,12 +179,14 @@ impl Expander<'_> {
         match (kind, &mut node.value) {
             (Kind::Number(_), Value::String(_)) => self.number(node),
             (Kind::Timed(_), Value::String(_)) => self.timed(node),
+            (Kind::Varying(_), Value::String(_)) => self.varying(node),
             (Kind::Drawn(_), Value::String(_)) => self.drawn_later(node),
             (Kind::OfBody(names), Value::String(_)) => self.of_body(node, names),
             (Kind::ListOfBody(_, names), Value::Array(_)) => {
                 self.items(node, |this, item| this.of_body(item, names));
             }
             (Kind::TimedNumbers(..), Value::Array(_)) => self.items(node, Expander::timed),
+            (Kind::VaryingNumbers(..), Value::Array(_)) => self.items(node, Expander::varying),
             (Kind::Integer(..), Value::String(_)) => self.integer(node),
             (Kind::Colors, Value::Array(items)) if items.iter().any(is_list) => {
                 self.items(node, |this, item| this.value(item, &Kind::Color));

@@ -20,12 +20,18 @@ pub(super) fn is_settled(node: &Node, kind: &Kind) -> bool {
     let is_number = |item: &Node| !matches!(item.value, Value::String(_) | Value::Invalid);
     match (kind, &node.value) {
         (
-            Kind::Number(_) | Kind::Timed(_) | Kind::Drawn(_) | Kind::OfBody(_) | Kind::Integer(..),
+            Kind::Number(_)
+            | Kind::Timed(_)
+            | Kind::Varying(_)
+            | Kind::Drawn(_)
+            | Kind::OfBody(_)
+            | Kind::Integer(..),
             Value::String(_),
         ) => false,
         (Kind::Reference(_), Value::String(text)) => !index::is_formula(text),
         (
             Kind::TimedNumbers(..)
+            | Kind::VaryingNumbers(..)
             | Kind::ListOfBody(..)
             | Kind::Numbers(..)
             | Kind::Direction(_)

@@ -1,9 +1,9 @@
 //! The grammar of `[camera]`: the keys that describe a camera.
 
-use super::Kind::{Choice, Integer, List, Number, Reference, Table, Timed};
+use super::Kind::{Choice, Integer, List, Number, Reference, Table, Varying};
 use super::key::table;
-use super::kind::{NON_NEGATIVE, POSITIVE, VECTOR};
-use super::motion::{BETWEEN_KEYFRAMES, TIMED_VECTOR};
+use super::kind::{NON_NEGATIVE, POSITIVE, VARYING_POINT, VECTOR};
+use super::motion::BETWEEN_KEYFRAMES;
 use super::{Bound, Collection, KeySpec, Rule};
 
 fn projections() -> Vec<&'static str> {
@@ -12,7 +12,7 @@ fn projections() -> Vec<&'static str> {
 
 table! {
     camera: "the camera", Rule::Any;
-    LOCATION: Option<value::TimedVector> = KeySpec::new("location", TIMED_VECTOR, "The camera's position; numbers, or formulas of `t`")
+    LOCATION: Option<value::VaryingPoint> = KeySpec::new("location", VARYING_POINT, "The camera's position; numbers, or formulas of `t` and of measures such as `ball.x`")
         .unit("m")
         .default(
             "fits the whole motion into the picture; of eight or more bodies, up to a third that \
@@ -20,10 +20,10 @@ table! {
              start of the motion",
         )
         .also(&["position", "pos", "eye", "from"]),
-    LOOK_AT: Option<value::TimedVector> = KeySpec::new(
+    LOOK_AT: Option<value::VaryingPoint> = KeySpec::new(
         "look_at",
-        TIMED_VECTOR,
-        "The point in the middle of the picture; numbers, or formulas of `t`",
+        VARYING_POINT,
+        "The point in the middle of the picture; numbers, or formulas of `t` and of measures such as `ball.x`",
     )
     .unit("m")
     .default("the center of the motion")
@@ -43,10 +43,10 @@ table! {
     ORBIT: Any = KeySpec::new("orbit", Table(&orbit::TABLE), "Circles around `look_at`, about the vertical")
         .default("none")
         .also(&["rotate", "turntable"]),
-    ANGLE: value::Timed = KeySpec::new(
+    ANGLE: value::Varying = KeySpec::new(
         "angle",
-        Timed(Bound::From(0.001, 179.999)),
-        "The horizontal field of view, in perspective; a number, or a formula of `t`",
+        Varying(Bound::From(0.001, 179.999)),
+        "The horizontal field of view, in perspective; a number, or a formula of `t` and of measures",
     )
     .unit("degrees")
     .default_number(40.0)

@@ -17,10 +17,14 @@ pub enum Kind {
     Integer(i64, i64),
     /// A number within a bound, or a formula of the time `t`.
     Timed(Bound),
+    /// A number within a bound, or a formula of the time `t` and of measures, such as `ball.x`.
+    Varying(Bound),
     /// A number within a bound, or a formula with random numbers. Each particle evaluates the formula with its own random numbers.
     Drawn(Bound),
     /// A list of a fixed length. Each item is a number within a bound, or a formula of the time `t`.
     TimedNumbers(usize, Bound),
+    /// A list of a fixed length. Each item is a number within a bound, or a formula of the time `t` and of measures.
+    VaryingNumbers(usize, Bound),
     /// A number, or a formula of the listed quantities of a body, such as its velocity.
     OfBody(&'static [&'static str]),
     /// A list of a fixed length. Each item is a number, or a formula of the listed quantities of a body.
@@ -78,6 +82,8 @@ pub(super) const POSITIVE: Kind = Kind::Number(Bound::Positive);
 pub(super) const NON_NEGATIVE: Kind = Kind::Number(Bound::NonNegative);
 /// A list of three numbers.
 pub(super) const VECTOR: Kind = Kind::Numbers(3, Bound::Any);
+/// A list of three numbers or formulas of the time and of measures.
+pub(super) const VARYING_POINT: Kind = Kind::VaryingNumbers(3, Bound::Any);
 /// A list of three numbers that are not all 0: a direction.
 pub(super) const AXIS: Kind = Kind::Direction(3);
 
@@ -187,7 +193,7 @@ impl Kind {
             | Kind::Reference(_) => matches!(value, Value::String(_)),
             Kind::Boolean => matches!(value, Value::Boolean(_)),
             Kind::Number(_) => matches!(value, Value::Integer(_) | Value::Float(_) | Value::String(_)),
-            Kind::Timed(_) => {
+            Kind::Timed(_) | Kind::Varying(_) => {
                 matches!(value, Value::Integer(_) | Value::Float(_) | Value::String(_) | Value::Formula(_))
             }
             Kind::Drawn(_) => {
@@ -200,6 +206,7 @@ impl Kind {
             Kind::Numbers(..)
             | Kind::ListOfBody(..)
             | Kind::TimedNumbers(..)
+            | Kind::VaryingNumbers(..)
             | Kind::Formulas(_)
             | Kind::Direction(_)
             | Kind::List { .. } => {
@@ -225,12 +232,18 @@ impl Kind {
                 bound => format!("a list of {count} numbers, each{}", bound.in_words()),
             },
             Kind::Timed(bound) => format!("a number{} or a formula of `t`", bound.in_words()),
+            Kind::Varying(bound) => {
+                format!("a number{} or a formula of `t` and of measures", bound.in_words())
+            }
             Kind::Drawn(bound) => format!("a number{} or a formula", bound.in_words()),
             Kind::OfBody(names) => format!("a number or a formula of {}", quoted(names)),
             Kind::ListOfBody(count, names) => {
                 format!("a list of {count} numbers or formulas of {}", quoted(names))
             }
             Kind::TimedNumbers(count, _) => format!("a list of {count} numbers or formulas of `t`"),
+            Kind::VaryingNumbers(count, _) => {
+                format!("a list of {count} numbers or formulas of `t` and of measures")
+            }
             Kind::Formulas(count) => format!("a list of {count} formulas"),
             Kind::Direction(count) => format!("a list of {count} numbers that are not all 0"),
             Kind::Color => "a color ([red, green, blue] from 0 to 1, \"#rrggbb\" or a CSS name)".to_owned(),

@@ -2,8 +2,7 @@
 
 use super::Kind::{Boolean, Color, Table};
 use super::key::table;
-use super::kind::{AXIS, NON_NEGATIVE, POSITIVE};
-use super::motion::TIMED_VECTOR;
+use super::kind::{AXIS, NON_NEGATIVE, POSITIVE, VARYING_POINT};
 use super::{KeySpec, Rule};
 
 table! {
@@ -27,7 +26,7 @@ table! {
 
 table! {
     point: "a point light", Rule::Any;
-    LOCATION: Option<value::TimedVector> = KeySpec::new("location", TIMED_VECTOR, "Its position; numbers, or formulas of `t`")
+    LOCATION: Option<value::VaryingPoint> = KeySpec::new("location", VARYING_POINT, "Its position; numbers, or formulas of `t` and of measures such as `ball.x`")
     .unit("m")
     .required()
     .also(&["position", "pos"]),
@@ -35,7 +34,7 @@ table! {
 
 table! {
     area: "an area light", Rule::Any;
-    LOCATION: Option<value::TimedVector> = KeySpec::new("location", TIMED_VECTOR, "Its position; numbers, or formulas of `t`")
+    LOCATION: Option<value::VaryingPoint> = KeySpec::new("location", VARYING_POINT, "Its position; numbers, or formulas of `t` and of measures such as `ball.x`")
         .unit("m")
         .required()
         .also(&["position", "pos"]),

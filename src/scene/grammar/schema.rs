@@ -127,10 +127,10 @@ fn kind(kind: &Kind, whole: RequireKeys) -> Map<String, Value> {
         Kind::Integer(low, high) => {
             object(json!({ "type": ["integer", "string"], "minimum": low, "maximum": high }))
         }
-        Kind::Timed(bound) | Kind::Drawn(bound) => number(*bound),
-        Kind::Numbers(count, bound) | Kind::TimedNumbers(count, bound) => {
-            list(number(*bound), *count, *count)
-        }
+        Kind::Timed(bound) | Kind::Varying(bound) | Kind::Drawn(bound) => number(*bound),
+        Kind::Numbers(count, bound)
+        | Kind::TimedNumbers(count, bound)
+        | Kind::VaryingNumbers(count, bound) => list(number(*bound), *count, *count),
         Kind::OfBody(_) => number(Bound::Any),
         Kind::Formulas(count) | Kind::ListOfBody(count, _) => list(number(Bound::Any), *count, *count),
         Kind::Direction(count) => {

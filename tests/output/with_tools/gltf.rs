@@ -181,16 +181,16 @@ fn assert_same_picture(name: &str, seen: &Seen, scene: &Scene, frames: &[Frame])
 fn assert_same_lights(name: &str, seen: &Seen, scene: &Scene, frames: &[Frame]) {
     let plan = Plan::new(scene, &scene.camera, &survey(scene, |_| {}).unwrap());
     let stage = plan.stage();
-    let at = |time: f64| Some(plan.lights(time)).filter(|lights| !lights.is_empty());
-    let at = |time: f64| at(time).unwrap_or_else(|| plan.usual_lights());
-    assert_eq!(seen.lights.len(), at(0.0).len(), "{name}");
+    let at = |frame: &Frame| Some(plan.lights(frame)).filter(|lights| !lights.is_empty());
+    let at = |frame: &Frame| at(frame).unwrap_or_else(|| plan.usual_lights());
+    assert_eq!(seen.lights.len(), at(&frames[0]).len(), "{name}");
     for (frame, i) in frames.iter().zip(0..seen.times.len()) {
-        for (found, light) in seen.lights.iter().zip(at(frame.time)) {
+        for (found, light) in seen.lights.iter().zip(at(frame)) {
             let off = DVec3::from_array(found.places[i]).distance(light.location);
             assert!(off <= 1.2e-7 * light.location.length(), "{name}, {}: {off} m off", light.name);
         }
     }
-    for (found, light) in seen.lights.iter().zip(at(frames[0].time)) {
+    for (found, light) in seen.lights.iter().zip(at(&frames[0])) {
         assert_eq!(found.name, format!("light {}", light.name), "{name}");
         let distance = light.location.distance(stage.center).max(stage.size / 2.0);
         let sun = light.kind == Lamp::Sun;

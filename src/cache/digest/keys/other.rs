@@ -30,7 +30,9 @@ fn of_kind(kind: &Kind, node: &Node, document: &Document) -> Vec<String> {
         Kind::Boolean => vec!["true".to_owned(), "false".to_owned()],
         Kind::Color | Kind::Colors => vec![quoted("#123456")],
         Kind::Choice(words) => words().into_iter().map(quoted).collect(),
-        Kind::Number(bound) | Kind::Timed(bound) | Kind::Drawn(bound) => numbers(*bound, node),
+        Kind::Number(bound) | Kind::Timed(bound) | Kind::Varying(bound) | Kind::Drawn(bound) => {
+            numbers(*bound, node)
+        }
         Kind::OfBody(_) => numbers(Bound::Any, node),
         Kind::Integer(low, high) => {
             let Some(number) = node.as_number() else { return numbers(Bound::Any, node) };
@@ -39,7 +41,7 @@ fn of_kind(kind: &Kind, node: &Node, document: &Document) -> Vec<String> {
             let near = near.filter(|number| (*low as f64..=*high as f64).contains(number));
             near.map(|number| number.to_string()).collect()
         }
-        Kind::Numbers(_, bound) | Kind::TimedNumbers(_, bound) => {
+        Kind::Numbers(_, bound) | Kind::TimedNumbers(_, bound) | Kind::VaryingNumbers(_, bound) => {
             of_items(node, document, &Kind::Number(*bound))
         }
         Kind::ListOfBody(..) | Kind::Formulas(_) | Kind::Direction(_) => {

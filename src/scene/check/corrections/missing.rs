@@ -97,7 +97,7 @@ pub(super) fn example_of(key: &KeySpec, context: &Context<'_>) -> Option<String>
         (Kind::Numbers(3, _), "size") => "[1, 1, 1]",
         (Kind::Numbers(3, _), "magnetic") => "[0, 0, 1]",
         (Kind::Numbers(3, _), "to") => "[4, 0, 0]",
-        (Kind::TimedNumbers(3, _), "location") => "[3, 5, 4]",
+        (Kind::TimedNumbers(3, _) | Kind::VaryingNumbers(3, _), "location") => "[3, 5, 4]",
         (Kind::Direction(3), "direction") => "[-1, -2, -1]",
         (Kind::Direction(3), "axis") => "[0, 0, 1]",
         (Kind::Text, "text") => "\"t = ${t:.2} s\"",

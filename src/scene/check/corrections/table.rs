@@ -52,8 +52,12 @@ pub(super) fn as_table(
         ([], Value::Array(items))
             if items.len() == 3 && !matches!(items[0].value, Value::String(_)) || name == "formula" =>
         {
-            let is_vector =
-                |key: &&KeySpec| matches!(key.kind, Kind::Numbers(3, _) | Kind::TimedNumbers(3, _));
+            let is_vector = |key: &&KeySpec| {
+                matches!(
+                    key.kind,
+                    Kind::Numbers(3, _) | Kind::TimedNumbers(3, _) | Kind::VaryingNumbers(3, _)
+                )
+            };
             entry(spec.keys().find(is_vector)?, raw)
         }
         ([], Value::Array(items)) => {

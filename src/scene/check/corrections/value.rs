@@ -121,9 +121,13 @@ fn better(node: &Node, kind: &'static Kind, key: &str, context: &Context<'_>) ->
             _ => None,
         },
         (Kind::Direction(3), Value::String(text)) if vector::axis(text).is_some() => vector::axis(text),
-        (Kind::Numbers(count, _) | Kind::TimedNumbers(count, _) | Kind::Direction(count), _) => {
-            vector::list(node, key, unit_of_key(key).unwrap_or(""), *count, context)
-        }
+        (
+            Kind::Numbers(count, _)
+            | Kind::TimedNumbers(count, _)
+            | Kind::VaryingNumbers(count, _)
+            | Kind::Direction(count),
+            _,
+        ) => vector::list(node, key, unit_of_key(key).unwrap_or(""), *count, context),
         (Kind::Table(spec), _) => table::as_table(spec, node, key, context),
         (Kind::List { min: 2, .. }, _) if key == "limits" => joint::limits(node, context),
         (Kind::List { .. }, _) if key == "over" => joint::in_list(node, context),
@@ -132,10 +136,12 @@ fn better(node: &Node, kind: &'static Kind, key: &str, context: &Context<'_>) ->
         (Kind::List { of: Kind::Integer(..), min, max }, Value::String(text)) if min == max => {
             numbers_of(text, *min)
         }
-        (Kind::Number(_) | Kind::Timed(_), Value::Array(items)) => match items.as_slice() {
-            [only] => Some(super::text::raw(only.span, context).to_owned()),
-            _ => None,
-        },
+        (Kind::Number(_) | Kind::Timed(_) | Kind::Varying(_), Value::Array(items)) => {
+            match items.as_slice() {
+                [only] => Some(super::text::raw(only.span, context).to_owned()),
+                _ => None,
+            }
+        }
         (Kind::Boolean, Value::String(text)) => match text.to_lowercase().as_str() {
             "true" | "yes" | "on" => Some("true".to_owned()),
             "false" | "no" | "off" => Some("false".to_owned()),

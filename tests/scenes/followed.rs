@@ -1,0 +1,134 @@
+//! Cameras, lights and the scene's own SDL that follow measures.
+
+use glam::DVec3;
+use jabuka::Run;
+use jabuka::emit::Emitter;
+use jabuka::picture::{Lens, Plan};
+use jabuka::scene::Scene;
+
+/// A ball that falls freely from 9 m, and a ring that moves by a formula.
+const SCENE: &str = "
+    [simulation]
+    duration = 1
+    frame_rate = 10
+    gravity = [0, -10, 0]
+    integrator = 'velocity-verlet'
+    [body.ball]
+    shape.sphere.radius = 0.3
+    mass = 2
+    location = [0, 9, 0]
+    velocity = [1, 0, 0]
+    [body.ring]
+    shape.sphere.radius = 0.1
+    motion.formula.location = ['2*cos(t)', 1, '2*sin(t)']
+    ";
+
+#[test]
+fn cameras_lights_and_sdl_have_the_values_of_closed_forms() {
+    let scene = format!(
+        "{SCENE}
+        [camera]
+        location = ['ball.x + 0.5', 'ring.z', '10 + 0.1*kinetic']
+        look_at = ['ball.x', 'ball.y', 'sin(t)']
+        angle = '30 + ball.speed'
+        [view.side]
+        angle = 50
+        [light.lamp]
+        area = {{ location = ['ball.x', 'ball.y + 4', 't'], size = 1 }}
+        [povray]
+        sdl = 'sphere {{ <${{ball.x}}, ${{ball.y:cm}}, 0>, ${{t}} }}'
+        "
+    );
+    let scene = Scene::parse(&scene).unwrap();
+    let run = Run::new(&scene).unwrap();
+    let plan = run.emitter().plan();
+    let side = Plan::new(&scene, &scene.views[0].camera, run.survey());
+    for frame in run.frames() {
+        let frame = frame.unwrap();
+        let t = frame.time;
+        let [x, y] = [t, 9.0 - 5.0 * t * t];
+        let speed = libm::sqrt(1.0 + 100.0 * t * t);
+        let camera = plan.camera(&frame);
+        let location = DVec3::new(x + 0.5, 2.0 * libm::sin(t), 10.0 + 0.1 * speed * speed);
+        assert!(camera.location().abs_diff_eq(location, 1e-9), "{camera:?} at {t} s");
+        assert!(camera.look_at().abs_diff_eq(DVec3::new(x, y, libm::sin(t)), 1e-9), "{camera:?} at {t} s");
+        let Lens::Perspective { angle } = camera.lens() else { panic!("another lens") };
+        assert!((angle - 30.0 - speed).abs() < 1e-9, "{angle} at {t} s");
+        // A view inherits the location and has an angle of its own.
+        assert!(side.camera(&frame).location().abs_diff_eq(location, 1e-9), "the view at {t} s");
+        assert_eq!(side.camera(&frame).lens(), Lens::Perspective { angle: 50.0 });
+        let light = &plan.lights(&frame)[0];
+        assert!(light.location.abs_diff_eq(DVec3::new(x, y + 4.0, t), 1e-9), "{light:?} at {t} s");
+        let script = run.emitter().script(&frame).unwrap();
+        let (_, rest) = script.split_once("sphere { <").unwrap();
+        let numbers: Vec<f64> =
+            rest.split([',', '>', '}']).filter_map(|part| part.trim().parse().ok()).take(4).collect();
+        for (found, known) in numbers.iter().zip([x, 100.0 * y, 0.0, t]) {
+            assert!((found - known).abs() < 1e-6, "{numbers:?} at {t} s");
+        }
+        assert_eq!(numbers.len(), 4, "{script}");
+    }
+    // The plan starts where the first frame is.
+    assert!(plan.placed().location().abs_diff_eq(DVec3::new(0.5, 0.0, 10.1), 1e-9));
+    assert!(plan.lights_at_start()[0].location.abs_diff_eq(DVec3::new(0.0, 13.0, 0.0), 1e-9));
+}
+
+#[test]
+fn mistakes_in_what_follows_measures_are_said_once_at_their_places() {
+    let scene = format!(
+        "{SCENE}
+        [camera]
+        location = ['bal.x', 'tt', '2*kinetic +']
+        look_at = ['ball.xx', 0, 0]
+        angle = 'ball.x:kg'
+        [view.side]
+        projection = 'perspective'
+        [light.lamp]
+        point.location = ['mean(ring)', '5 cm', 'impacts']
+        [povray]
+        sdl = '#declare A = ${{ball.z'
+        "
+    );
+    let report = Scene::parse(&scene).unwrap_err();
+    let said: Vec<&str> = report.diagnostics.iter().map(|it| it.message.as_str()).collect();
+    insta::assert_debug_snapshot!(said);
+}
+
+/// A body that comes later has no place before, so a script that needs it cannot be written.
+#[test]
+fn an_unknown_value_is_an_error_and_no_script() {
+    for (keys, expected) in [
+        ("[camera]\nlocation = ['late.x', 1, 5]", "at t = 0 s the camera is"),
+        ("[camera]\nangle = 'late.speed'", "at t = 0 s the camera is"),
+        ("[light.lamp]\npoint.location = [0, 'late.y', 5]", "at t = 0 s the light `lamp` is"),
+        ("[povray]\nsdl = '#declare A = ${late.x};'", "at t = 0 s `${late.x}` in `povray.sdl` has no value"),
+    ] {
+        let late = "[body.late]\nshape.sphere.radius = 0.2\nlocation = [3, 3, 0]\nstart = 0.5\n";
+        let scene = Scene::parse(&format!("{SCENE}\n{late}{keys}")).unwrap();
+        let run = Run::new(&scene).unwrap();
+        let first = run.frames().next().unwrap().unwrap();
+        let error = run.emitter().script(&first).unwrap_err().to_string();
+        assert!(error.contains(expected), "{keys}: {error}");
+        let last = run.frames().last().unwrap().unwrap();
+        assert!(run.emitter().script(&last).is_ok(), "{keys}");
+    }
+}
+
+/// SDL without values stands in the part that all scripts share.
+#[test]
+fn sdl_with_values_stands_in_each_script() {
+    let emitted = |sdl: &str| {
+        let text = format!("{SCENE}\noutput.layout = 'shared'\n[povray]\nsdl = '{sdl}'");
+        let text = text.replace("[povray]", "[body.last]\nshape.sphere.radius = 1\n[povray]");
+        let text = text.replace("output.layout = 'shared'", "[output]\nlayout = 'shared'");
+        let scene = Scene::parse(&text).unwrap();
+        let run = Run::new(&scene).unwrap();
+        let emitter: &Emitter = run.emitter();
+        let frame = run.frames().last().unwrap().unwrap();
+        let files = emitter.sequence(&scene, [0]).unwrap();
+        let shared = files.into_iter().find(|(name, _)| *name == jabuka::emit::COMMON).unwrap().1;
+        [emitter.script(&frame).unwrap(), shared].map(|text| text.contains("#declare A ="))
+    };
+    assert_eq!(emitted("#declare A = 3;"), [false, true]);
+    assert_eq!(emitted("#declare A = ${t};"), [true, false]);
+}
