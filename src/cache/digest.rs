@@ -47,6 +47,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
         areas: _,
         fields: _,
         arrow_marks: _,
+        approaches: _,
         aggregates: _,
         scale_bar: _,
         grid: _,

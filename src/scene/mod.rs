@@ -131,8 +131,8 @@ pub use look::{
 };
 pub use mark::{Angle, Area, ArrowMark, ArrowOwner, Components, Distance, Leg};
 pub use measure::{
-    Aggregate, Aggregation, AskedUnit, BodyMeasure, ForceMeasure, JointMeasure, JointState, ListedMeasure,
-    Measure, MeasureFormula, RunMeasure, Subject,
+    Aggregate, Aggregation, AskedUnit, BodyMeasure, EmitterMeasure, ForceMeasure, JointMeasure, JointState,
+    ListedMeasure, Measure, MeasureFormula, RunMeasure, Subject,
 };
 pub(crate) use model::thinnest;
 pub use model::{Body, BodyLook, SimulationSettings};
@@ -192,6 +192,8 @@ pub struct Scene {
     /// The pairs of bodies whose impacts the labels count, as indices of bodies with the smaller index first. An index equal to the number
     /// of bodies means the ground.
     pub pairs: Vec<[usize; 2]>,
+    /// The pairs of bodies whose smallest distances formulas use, as indices of bodies with the smaller index first.
+    pub approaches: Vec<[usize; 2]>,
     /// The sums, means and extremes over several bodies that labels and plots show.
     pub aggregates: Vec<Aggregate>,
     /// The labels in the picture, in the order of the file.

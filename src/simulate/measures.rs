@@ -12,9 +12,11 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::births::Births;
 use super::build::{forces, forces_of};
 use super::simulation::Entry;
-use super::{AngleNow, DistanceNow, Frame, Ghost, ImpactCounts, Sector, shown};
+use super::tallies::SoFar;
+use super::{AngleNow, DistanceNow, Frame, Ghost, ImpactCounts, shown};
 use crate::physics::{
     Balance, BodyId, BodySnapshot, ContactSnapshot, Coordinate, Force, Kinematics, Loads, Moment, Motion,
     Presence, Reaction, RigidBody, World, find,
@@ -38,8 +40,8 @@ pub struct MomentState<'a> {
     contacts: Option<&'a [ContactSnapshot]>,
     /// The numbers of impacts up to the moment. `None` for a ghost.
     impacts: Option<&'a ImpactCounts>,
-    /// The complete sectors of each swept area. Empty for a ghost.
-    areas: &'a [Vec<Arc<Sector>>],
+    /// What is known of earlier frames. Empty for a ghost.
+    past: SoFar<'a>,
     computed: Computed,
 }
 
@@ -70,23 +72,19 @@ impl<'a> MomentState<'a> {
             angles: &frame.angles,
             contacts: Some(&frame.contacts),
             impacts: Some(&frame.impacts),
-            areas: &frame.past.areas,
+            past: SoFar { areas: &frame.past.areas, closest: &frame.past.closest },
             computed: Computed::default(),
         }
     }
 
-    /// Returns the moment of a frame without a past, with these complete sectors of each swept area.
-    pub(super) fn with_areas(frame: &'a Frame, areas: &'a [Vec<Arc<Sector>>]) -> MomentState<'a> {
-        MomentState { areas, ..MomentState::now(frame) }
+    /// Returns the moment of a frame without a past, with what is known of earlier frames.
+    pub(super) fn with_past(frame: &'a Frame, past: SoFar<'a>) -> MomentState<'a> {
+        MomentState { past, ..MomentState::now(frame) }
     }
 
-    /// Returns a moment of the run, which may lie between two frames. `latest` is the number of the frame before it; `areas` has the
-    /// complete sectors of each swept area up to that frame.
-    pub(super) fn of_entry(
-        entry: &'a Entry,
-        latest: usize,
-        areas: &'a [Vec<Arc<Sector>>],
-    ) -> MomentState<'a> {
+    /// Returns a moment of the run, which may lie between two frames. `latest` is the number of the frame before it; `past` is what is known
+    /// up to that frame.
+    pub(super) fn of_entry(entry: &'a Entry, latest: usize, past: SoFar<'a>) -> MomentState<'a> {
         let moment = &entry.snapshot;
         MomentState {
             time: moment.time,
@@ -97,7 +95,7 @@ impl<'a> MomentState<'a> {
             angles: &moment.angles,
             contacts: Some(&moment.contacts),
             impacts: Some(&entry.counts),
-            areas,
+            past,
             computed: Computed::default(),
         }
     }
@@ -118,7 +116,7 @@ impl<'a> MomentState<'a> {
             angles: &[],
             contacts: None,
             impacts: None,
-            areas: &[],
+            past: SoFar::default(),
             computed: Computed::default(),
         }
     }
@@ -144,6 +142,7 @@ pub struct Measures {
     /// The coordinates of hinges and sliders, indexed by joint. `None` for other joints.
     joints: Vec<Option<Coordinate>>,
     aggregates: Vec<Aggregate>,
+    emitters: Vec<Births>,
     /// The forces that measures show, by their indices in the scene.
     forces: BTreeMap<usize, ShownForces>,
     /// All forces, if measures show potential energies of bodies.
@@ -168,6 +167,7 @@ impl Measures {
             angles: scene.angles.clone(),
             distances: scene.distances.clone(),
             aggregates: scene.aggregates.clone(),
+            emitters: scene.emitters.iter().map(|emitter| Births::new(scene, emitter)).collect(),
             forces: shown.chain(with_arrows).collect(),
             all_forces: ShownForces(if shows_potential { forces_of(scene).collect() } else { Vec::new() }),
         }
@@ -229,6 +229,8 @@ impl Measures {
                 let place = |body| find(moment.bodies, body).map(|at| at.location);
                 place(one).zip(place(other)).map_or(f64::NAN, |(one, other)| one.distance(other))
             }
+            Measure::Closest(pair) => moment.past.closest.get(pair).copied().unwrap_or(f64::NAN),
+            Measure::Emitter(number, measure) => self.emitters[number].value(measure, moment.time),
             Measure::Joint(number, measure) => {
                 let Some(reaction) = moment.reactions.get(number) else { return f64::NAN };
                 let body = |id: BodyId| find(moment.bodies, id.index()).copied();
@@ -257,7 +259,7 @@ impl Measures {
                 DistanceNow::of(&self.distances[number], moment.bodies).map_or(f64::NAN, |now| now.value)
             }
             Measure::Area(number) => {
-                let last = moment.areas.get(number).and_then(|sectors| sectors.last());
+                let last = moment.past.areas.get(number).and_then(|sectors| sectors.last());
                 last.map_or(f64::NAN, |sector| sector.area)
             }
             Measure::Aggregate(number) => self.aggregate(number, moment),

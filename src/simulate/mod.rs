@@ -63,6 +63,8 @@
 //!
 //! The total number of pair interactions of a run is computed beforehand (`workload.rs`), so that the progress bar can move within a frame.
 
+mod approaches;
+mod births;
 mod build;
 mod diagnose;
 mod diverged;
@@ -93,6 +95,7 @@ mod span;
 mod strays;
 mod survey;
 mod swarms;
+mod tallies;
 #[cfg(test)]
 mod tests;
 mod vectors;

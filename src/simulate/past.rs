@@ -18,8 +18,8 @@ pub use trail_path::{TrailPath, TrailPoint};
 
 use self::trail_path::{cut, stride, thin};
 use self::values::Values;
-use super::sectors::Sweeps;
 use super::simulation::Entry;
+use super::tallies::Tallies;
 use super::{Frame, Lagging, MomentState, Sector};
 use crate::physics::{BodySnapshot, ContactSnapshot, Impact};
 use crate::scene::{Scene, Showing, Timeline, Trail};
@@ -35,6 +35,8 @@ pub struct Past {
     pub lagging: Vec<Lagging>,
     /// The complete sectors of each swept area, in order of time.
     pub areas: Vec<Vec<Arc<Sector>>>,
+    /// The smallest distance so far of each pair in `approaches` of the scene, m. NaN before both bodies have been present.
+    pub closest: Vec<f64>,
 }
 
 /// A copy of a body at an earlier time, for drawing.
@@ -84,7 +86,7 @@ pub(super) struct History {
     is_away: Vec<bool>,
     ghosts: Vec<Arc<Ghost>>,
     lagging: Vec<Lagging>,
-    sweeps: Sweeps,
+    tallies: Tallies,
     timeline: Timeline,
 }
 
@@ -117,14 +119,14 @@ impl History {
             requests,
             ghosts: Vec::new(),
             lagging: Lagging::of(scene),
-            sweeps: Sweeps::new(scene),
+            tallies: Tallies::new(scene),
             timeline: scene.simulation.timeline,
         }
     }
 
-    /// True if the scene needs no trails, ghosts, delayed camera targets or swept areas.
+    /// True if the scene needs no trails, ghosts, delayed camera targets, swept areas or smallest distances.
     pub(super) fn is_idle(&self) -> bool {
-        self.requests.is_empty() && self.lagging.is_empty() && self.sweeps.complete().is_empty()
+        self.requests.is_empty() && self.lagging.is_empty() && self.tallies.is_idle()
     }
 
     /// Stores the ghosts at a moment, and the impacts since the moment before.
@@ -155,7 +157,7 @@ impl History {
             let touches = moment.contacts.iter().filter(|contact| contact.bodies.contains(&body)).copied();
             if self.requests.iter().any(shows) { touches.collect() } else { Vec::new() }
         };
-        let state = MomentState::of_entry(entry, self.latest, self.sweeps.complete());
+        let state = MomentState::of_entry(entry, self.latest, self.tallies.so_far());
         let look = |body: usize| match &self.values {
             Some(values) => values.of_ghost(body, &state),
             None => GhostLook { color: None, scale: None, is_drawn: true },
@@ -170,7 +172,7 @@ impl History {
     /// Updates the trails and delayed camera targets with a frame.
     pub(super) fn note(&mut self, frame: &Frame) {
         self.lagging.iter_mut().for_each(|lagging| *lagging = lagging.at(frame));
-        self.sweeps.note(frame);
+        self.tallies.note(frame);
         self.latest = frame.index;
         let values = self.values_of_trails(frame);
         for (number, value) in values.into_iter().enumerate() {
@@ -208,7 +210,7 @@ impl History {
 
     /// Returns the value at a frame, or at a moment after the last frame, that the color of each trail follows.
     fn values_of_trails(&self, frame: &Frame) -> Vec<Option<f64>> {
-        let moment = MomentState::with_areas(frame, self.sweeps.complete());
+        let moment = MomentState::with_past(frame, self.tallies.so_far());
         let value = |(body, showing): &(usize, Showing)| {
             showing.trail.filter(|trail| trail.color.is_none())?;
             self.values.as_ref()?.of_trail(*body, &moment)
@@ -261,8 +263,9 @@ impl History {
         let slack = self.timeline.slack();
         let is_past = |ghost: &&Arc<Ghost>| ghost.time < moment.time - slack;
         let ghosts = self.ghosts.iter().filter(is_past).cloned().collect();
-        let mut sweeps = self.sweeps.clone();
-        sweeps.note(moment);
-        Past { trails, ghosts, lagging, areas: sweeps.into_complete() }
+        let mut tallies = self.tallies.clone();
+        tallies.note(moment);
+        let (areas, closest) = tallies.finish();
+        Past { trails, ghosts, lagging, areas, closest }
     }
 }

@@ -29,8 +29,8 @@ pub use stretched::StretchedJoint;
 use super::overlap::{Overlap, Watch};
 use super::particles::Clouds;
 use super::requested_sizes::RequestedSizes;
-use super::sectors::Sweeps;
 use super::span::{ArrowNow, Spans};
+use super::tallies::Tallies;
 use super::{
     Bounds, EnergyError, EnergyScale, Frame, Frames, Measures, MomentState, Past, SimulateError, Span, world,
 };
@@ -159,7 +159,7 @@ pub struct Surveyor<'a> {
     gaps: Gaps,
     /// The largest energy error so far.
     error: EnergyError,
-    sweeps: Sweeps,
+    tallies: Tallies,
     curves: Curves<'a>,
     ranges: Ranges<'a>,
     spreads: Spreads<'a>,
@@ -199,7 +199,7 @@ impl<'a> Surveyor<'a> {
             laws: Vec::new(),
             gaps: Gaps::new(scene),
             error: EnergyError::default(),
-            sweeps: Sweeps::new(scene),
+            tallies: Tallies::new(scene),
             curves: Curves::new(scene),
             ranges: Ranges::new(scene),
             spreads: Spreads::new(scene),
@@ -235,8 +235,8 @@ impl<'a> Surveyor<'a> {
             root: load.root,
             vector: load.vector,
         });
-        self.sweeps.note(frame);
-        let moment = MomentState::with_areas(frame, self.sweeps.complete());
+        self.tallies.note(frame);
+        let moment = MomentState::with_past(frame, self.tallies.so_far());
         let of_forces = self.arrows.of_forces(frame, &moment, &self.measures);
         self.requested.see_forces(&of_forces);
         let of_forces = of_forces.into_iter().map(|(_, arrow)| arrow);

@@ -28,7 +28,7 @@ fn cameras_lights_and_sdl_have_the_values_of_closed_forms() {
     let scene = format!(
         "{SCENE}
         [camera]
-        location = ['ball.x + 0.5', 'ring.z', '10 + 0.1*kinetic']
+        location = ['ball.x + 0.5', 'ring.z', '10 + 0.1*ball.kinetic']
         look_at = ['ball.x', 'ball.y', 'sin(t)']
         angle = '30 + ball.speed'
         [view.side]
@@ -84,14 +84,13 @@ fn mistakes_in_what_follows_measures_are_said_once_at_their_places() {
         [view.side]
         projection = 'perspective'
         [light.lamp]
-        point.location = ['mean(ring)', '5 cm', 'impacts']
+        point.location = ['mean(ring.x)', '5 cm', 'impacts']
         [povray]
         sdl = '#declare A = ${{ball.z'
         "
     );
     let report = Scene::parse(&scene).unwrap_err();
-    let said: Vec<&str> = report.diagnostics.iter().map(|it| it.message.as_str()).collect();
-    insta::assert_debug_snapshot!(said);
+    insta::assert_snapshot!(report.to_string());
 }
 
 /// A body that comes later has no place before, so a script that needs it cannot be written.

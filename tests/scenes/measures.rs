@@ -61,6 +61,12 @@ const SCENE: &str = "
     [distance.h]
     between = [[0, 0, 0], 'ball']
     along = [0, 1, 0]
+    [emitter.spray]
+    from.point = [0, 2, 5]
+    speed = 2
+    rate = 123
+    lifetime = 'uniform(0.1, 0.2)'
+    shape.sphere.radius = 0.01
     [area.a]
     body = 'ball'
     center = [0, 0, 0]
@@ -84,7 +90,7 @@ fn names(scene: &Scene) -> Vec<String> {
         }
         let name = name.replace("force.NAME.BODY", "force.air.gas[1]").replace("force.NAME", "force.pull");
         let name = name.replace("angle.NAME", "angle.phi").replace("distance.NAME", "distance.h");
-        let name = name.replace("area.NAME", "area.a");
+        let name = name.replace("area.NAME", "area.a").replace("emitter.NAME", "emitter.spray");
         let body = if name.contains('(') { "gas" } else { "ball" };
         names.push(name.replace("BODY", body).replace("OTHER", "crate"));
     }

@@ -3,6 +3,7 @@
 mod aggregates;
 mod bodies;
 mod dotted;
+mod emitters;
 mod forces;
 mod marks;
 mod unit;
@@ -18,7 +19,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::expand::place;
 use crate::scene::expression::{ExpressionError, Formula, Scope};
 use crate::scene::grammar::scene::{scene, simulation};
-use crate::scene::{Body, BodyMeasure, Force, Joint, Measure, MeasureFormula, RunMeasure, Subject};
+use crate::scene::{Body, BodyMeasure, Emitter, Force, Joint, Measure, MeasureFormula, RunMeasure, Subject};
 
 /// The body whose measures need no name in a text, since the text stands beside it.
 #[derive(Clone, Copy)]
@@ -35,6 +36,7 @@ pub(super) struct Things<'a> {
     pub(super) bodies: &'a [Body],
     pub(super) forces: &'a [Force],
     pub(super) joints: &'a [Joint],
+    pub(super) emitters: &'a [Emitter],
 }
 
 /// Reads a text that contains formulas of measures.

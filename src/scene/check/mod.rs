@@ -124,6 +124,8 @@ struct Context<'a> {
     files: Vec<[u8; 32]>,
     /// The pairs of bodies whose impacts are counted, as indices of bodies.
     pairs: Vec<[usize; 2]>,
+    /// The pairs of bodies whose smallest distances formulas use, as indices of bodies.
+    approaches: Vec<[usize; 2]>,
     /// The sums, means and extremes over several bodies in the formulas of measures.
     aggregates: Vec<Aggregate>,
     /// The color maps of materials as they are written, each once.
@@ -165,6 +167,7 @@ impl Context<'_> {
             validated: HashSet::new(),
             files: Vec::new(),
             pairs: Vec::new(),
+            approaches: Vec::new(),
             aggregates: Vec::new(),
             color_maps: Vec::new(),
             value_maps: Vec::new(),
@@ -355,7 +358,7 @@ fn build(
         let help = "a body is two lines: `[body.ball]` and `shape.sphere.radius = 1`";
         context.diagnostics.push(Diagnostic::warning(Code::NoBodies, message).help(help));
     }
-    let things = measures::Things { bodies: &bodies, forces: &forces, joints: &joints };
+    let things = measures::Things { bodies: &bodies, forces: &forces, joints: &joints, emitters: &emitters };
     let known = marks::Known { root: &root, things, simulation: &simulation };
     let mut povray = povray::read(known, context);
     povray.templates = templates::read(&root.table(&scene::POVRAY), options.templates.as_deref(), context);
@@ -389,6 +392,7 @@ fn build(
         views: camera::views(known, context),
         lights: look::lights(known, context),
         pairs: std::mem::take(&mut context.pairs),
+        approaches: std::mem::take(&mut context.approaches),
         aggregates: std::mem::take(&mut context.aggregates),
         simulation,
         environment,

@@ -140,7 +140,7 @@ impl Expander<'_> {
             let (range, name, _) = members(&text).next().unwrap_or((0..0, "", ""));
             let place = super::place::in_string(self.raw(span), &text, &range, span);
             let message = "a formula cannot ask where a body is";
-            let help = "formulas know `t` and `[variables]`, and only labels know bodies; `camera.follow` lets the camera go with a body";
+            let help = "formulas of bodies know `t` and `[variables]`; labels, plots, cameras and lights know bodies, too";
             let error = Diagnostic::error(Code::FormulaOfBody, message).help(help);
             if !all_known {
                 self.diagnostics.push(error.at(place, ""));

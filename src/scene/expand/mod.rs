@@ -186,7 +186,10 @@ impl Expander<'_> {
                 self.items(node, |this, item| this.of_body(item, names));
             }
             (Kind::TimedNumbers(..), Value::Array(_)) => self.items(node, Expander::timed),
-            (Kind::VaryingNumbers(..), Value::Array(_)) => self.items(node, Expander::varying),
+            (Kind::VaryingNumbers(..), Value::Array(_)) => {
+                // The formulas of measures beside a wrong one are checked later.
+                self.each_item(node, Expander::varying);
+            }
             (Kind::Integer(..), Value::String(_)) => self.integer(node),
             (Kind::Colors, Value::Array(items)) if items.iter().any(is_list) => {
                 self.items(node, |this, item| this.value(item, &Kind::Color));
@@ -233,17 +236,21 @@ impl Expander<'_> {
     /// Expands each item of a list with the function `look`. If an item becomes invalid after a reported error, the whole list becomes
     /// [`Value::Invalid`].
     fn items(&mut self, node: &mut Node, look: impl Fn(&mut Self, &mut Node)) {
+        self.each_item(node, look);
+        let Value::Array(items) = &node.value else { return };
+        if items.iter().any(|item| matches!(item.value, Value::Invalid)) {
+            node.value = Value::Invalid;
+        }
+    }
+
+    /// Expands each item of a list with the function `look`.
+    fn each_item(&mut self, node: &mut Node, look: impl Fn(&mut Self, &mut Node)) {
         let Value::Array(items) = &mut node.value else { return };
-        let mut is_whole = true;
         for (number, item) in items.iter_mut().enumerate() {
             let length = self.path.len();
             let _ = write!(self.path, "[{number}]");
             look(self, item);
             self.path.truncate(length);
-            is_whole &= !matches!(item.value, Value::Invalid);
-        }
-        if !is_whole {
-            node.value = Value::Invalid;
         }
     }
 }

@@ -551,6 +551,37 @@ rest of the picture. `jabuka export SCENE --plot NAME -o FILE.svg` draws the who
 those of the last moment. FILE.csv is a table of its values in each frame.
 ";
 
+/// The description of what follows measures besides texts, plots and looks.
+const FOLLOWING: &str = "
+## Cameras, lights and SDL that follow measures
+
+The measures of labels also move cameras and lights: in `location`, `look_at` and `angle` of a camera or a view, and in the `location` of a light.
+They stand in formulas, as numbers and `t` do. In `povray.sdl`, `${…}` becomes the value of a formula in the script of each frame.
+
+```toml
+[body.ball]
+shape.sphere.radius = 0.3
+location = [0, 8, 0]
+velocity = [2, 0, 0]
+
+[camera]
+location = [\"ball.x\", 4, 12]
+look_at = [\"ball.x\", \"max(ball.y, 1)\", 0]
+angle = \"40 + 2*ball.speed\"
+
+[light.lamp]
+point.location = [\"ball.x\", \"ball.y + 3\", 5]
+
+[povray]
+sdl = \"sphere { <${ball.x}, ${ball.y}, 0>, 0.31 pigment { rgbt <1, 0, 0, ${1/(1 + ball.speed)}> } }\"
+```
+
+A value has the unit of its measure; another one may be asked for, as in a label: `${ball.speed:km/h}`. Lengths in SDL are in POV-Ray's units: one unit is
+1 m, unless the scene is very small or very large (`povray.unit`). SDL with values stands in each script, before the bodies. Materials stand before it,
+so they cannot use what it declares; `sdl_before` and `sdl_after` of a body can. While a body is absent, its measures have no value, and a script that
+needs one is an error.
+";
+
 /// The documentation page under construction.
 struct Page {
     text: String,
@@ -599,6 +630,7 @@ impl Page {
             let _ = writeln!(self.text, "| `{name}` | {unit} | {meaning} |");
         }
         self.text.push_str(PLOTS);
+        self.text.push_str(FOLLOWING);
         self.text.push_str(MARKS);
     }
 

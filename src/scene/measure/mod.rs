@@ -2,12 +2,14 @@
 
 mod aggregate;
 mod body;
+mod emitter;
 mod force;
 mod joint;
 mod run;
 
 pub use aggregate::{Aggregate, Aggregation};
 pub use body::BodyMeasure;
+pub use emitter::EmitterMeasure;
 pub use force::ForceMeasure;
 pub use joint::{JointMeasure, JointState};
 pub use run::RunMeasure;
@@ -90,6 +92,10 @@ pub enum Measure {
     Force(usize, Option<Subject>, ForceMeasure),
     /// The number of impacts between two bodies so far. The number is an index into `pairs` of the scene.
     Impacts(usize),
+    /// A quantity of one emitter. The number is the index of the emitter in the scene.
+    Emitter(usize, EmitterMeasure),
+    /// The smallest distance so far between the centers of two bodies, m. The number is an index into `approaches` of the scene.
+    Closest(usize),
     /// The distance between the centers of two bodies, m. The number is the index of the second body in the scene.
     Distance(Subject, usize),
     /// An angle of the scene, degrees. The number is an index into `angles` of the scene.
@@ -103,8 +109,9 @@ pub enum Measure {
 }
 
 /// The quantities of two bodies, each with its name in formulas, its unit and its meaning.
-const OF_TWO_BODIES: [(&str, &str, &str); 3] = [
+const OF_TWO_BODIES: [(&str, &str, &str); 4] = [
     ("BODY.distance.OTHER", "m", "the distance between the centers of two bodies"),
+    ("BODY.closest.OTHER", "m", "the smallest distance of the centers so far"),
     ("BODY.impacts.OTHER", "", "the number of impacts between two bodies so far"),
     ("BODY.impacts.ground", "", "the number of its impacts with the ground so far"),
 ];
@@ -139,6 +146,10 @@ impl Measure {
         list.extend(OF_TWO_BODIES.map(|(name, unit, meaning)| line(name.to_owned(), unit, meaning)));
         list.extend(
             JointMeasure::ALL.map(|(name, of, meaning)| line(name.to_owned(), &of.unit_in_words(), meaning)),
+        );
+        list.extend(
+            EmitterMeasure::ALL
+                .map(|(name, of, meaning)| line(format!("emitter.NAME.{name}"), of.unit(), meaning)),
         );
         let of_force = |(name, of, meaning): (&str, ForceMeasure, _)| {
             line(format!("force.NAME.{name}"), of.unit(), meaning)

@@ -12,6 +12,9 @@ use crate::scene::{BodyMeasure, Measure, Subject};
 /// The word between two bodies whose distance is meant.
 const DISTANCE: &str = "distance";
 
+/// The word between two bodies whose smallest distance so far is meant.
+const CLOSEST: &str = "closest";
+
 impl Reader<'_, '_, '_> {
     /// Returns the body that a name means. It begins at the byte `begin` of the text. Within an aggregate, the name of a repeated body means
     /// each of its copies. Reports an unknown name.
@@ -64,13 +67,15 @@ impl Reader<'_, '_, '_> {
         start: usize,
         (begin, word): (usize, Range<usize>),
     ) -> Option<(Measure, usize)> {
+        let begin_of_name = begin;
         let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
         let (measure, end) = (&formula[word.clone()], word.end);
         let other = formula[end..].strip_prefix('.').and_then(body_name);
-        if measure == DISTANCE {
+        if matches!(measure, DISTANCE | CLOSEST) {
             let Some(other) = other else {
                 let error = Diagnostic::error(Code::UnknownName, "a distance has two bodies");
-                self.report(error, start + word.start..start + end, "write `a.distance.b`");
+                let label = format!("write `a.{measure}.b`");
+                self.report(error, start + word.start..start + end, &label);
                 return None;
             };
             let begin = start + end + 1;
@@ -85,11 +90,24 @@ impl Reader<'_, '_, '_> {
                 self.report(error, begin..begin + other.len(), "these are several");
                 return None;
             };
-            return Some((Measure::Distance(subject, number), end + 1 + other.len()));
+            let end = end + 1 + other.len();
+            if measure == DISTANCE {
+                return Some((Measure::Distance(subject, number), end));
+            }
+            let Subject::One(one) = subject else {
+                let error = Diagnostic::error(Code::LabelSyntax, "the approach of two bodies has one value");
+                self.report(
+                    error,
+                    start + begin_of_name..start + end,
+                    "needs a single body before `closest`",
+                );
+                return None;
+            };
+            return Some((self.of_approach([one, number]), end));
         }
         let Some((_, known, _)) = BodyMeasure::ALL.into_iter().find(|(name, ..)| *name == measure) else {
             let names: Vec<&str> =
-                BodyMeasure::ALL.iter().map(|(name, ..)| *name).chain([DISTANCE]).collect();
+                BodyMeasure::ALL.iter().map(|(name, ..)| *name).chain([DISTANCE, CLOSEST]).collect();
             let message = format!("a body has no `{measure}` that a {} could show", self.noun);
             let rest = formula[end..].strip_prefix('.');
             let axis = rest.map(|rest| &rest[..rest.find(|c| !is_part(c)).unwrap_or(rest.len())]);
@@ -125,6 +143,16 @@ impl Reader<'_, '_, '_> {
             return Some((measure, end + 1 + other.len()));
         }
         Some((Measure::Body(subject, known), end))
+    }
+
+    /// Returns the measure of the smallest distance of two bodies so far.
+    fn of_approach(&mut self, [one, other]: [usize; 2]) -> Measure {
+        let pair = [one.min(other), one.max(other)];
+        let known = &mut self.context.approaches;
+        Measure::Closest(known.iter().position(|known| *known == pair).unwrap_or_else(|| {
+            known.push(pair);
+            known.len() - 1
+        }))
     }
 
     /// Reports the use of a measure such as `impacts` in a scene without contacts.

@@ -30,49 +30,56 @@ impl Reader<'_, '_, '_> {
             if at < taken {
                 continue;
             }
-            if let Some(name) =
-                formula[..at].ends_with("joint").then(|| joint_name(&formula[at + 1..])).flatten()
-                && !formula[..at - "joint".len()].ends_with(is_part)
-            {
-                let begin = at - "joint".len();
-                let behind = at + 1 + name.len() + 1;
-                let rest = &formula[behind..];
-                taken = behind + rest.find(|c| !is_part(c)).unwrap_or(rest.len());
-                let measure = self.of_joint(name, start + at + 1, &formula[behind..taken])?;
-                let joined = formula[begin..taken].replace(|c| !is_part(c), &joint);
-                plain.replace_range(begin..taken, &joined);
-                self.note(&mut dotted, joined, measure, &formula[begin..taken], start + begin)?;
-                continue;
-            }
-            if let Some((begin, name, measure)) =
-                self.of_mark(&formula[..at], &formula[at + 1..], start + at + 1)
-            {
-                taken = at + 1 + name.len();
-                let joined = formula[begin..taken].replace(|c| !is_part(c), &joint);
-                plain.replace_range(begin..taken, &joined);
-                self.note(&mut dotted, joined, measure?, &formula[begin..taken], start + begin)?;
-                continue;
-            }
-            if let Some((name, rest)) = self.force_name(&formula[..at], &formula[at + 1..]) {
-                let begin = at - "force".len();
-                let behind = at + 1 + name.len() + 1;
-                let (measure, end) = self.of_force(name, start + at + 1, rest)?;
-                taken = behind + end;
-                let joined = formula[begin..taken].replace(|c| !is_part(c), &joint);
-                plain.replace_range(begin..taken, &joined);
-                self.note(&mut dotted, joined, measure, &formula[begin..taken], start + begin)?;
-                continue;
-            }
-            let Some(Dotted { body, word }) = dotted_at(formula, at) else { continue };
-            let (begin, end) = (body.start, word.end);
-            let subject = self.subject(&formula[body.clone()], start + body.start)?;
-            let (measure, end) = self.of_body(subject, formula, start, (begin, at + 1..end))?;
-            taken = end;
-            let joined = formula[begin..end].replace(|c| !is_part(c), &joint);
-            plain.replace_range(begin..end, &joined);
-            self.note(&mut dotted, joined, measure, &formula[begin..end], start + begin)?;
+            let Some((range, measure)) = self.measure_at(formula, start, at)? else { continue };
+            taken = range.end;
+            let name = &formula[range.clone()];
+            let joined = name.replace(|c| !is_part(c), &joint);
+            plain.replace_range(range.clone(), &joined);
+            self.note(&mut dotted, joined, measure, name, start + range.start)?;
         }
         Some((plain, dotted))
+    }
+
+    /// Returns the name that the dot at the byte `at` of a formula belongs to, and its measure. The inner `None` means another dot, such as
+    /// that of a number; the outer one means an error, which is reported. The formula begins at the byte `start` of the text.
+    #[allow(clippy::option_option, reason = "an error ends the whole formula")]
+    fn measure_at(
+        &mut self,
+        formula: &str,
+        start: usize,
+        at: usize,
+    ) -> Option<Option<(Range<usize>, Measure)>> {
+        let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let end_of_word = |begin: usize| {
+            let rest = &formula[begin..];
+            begin + rest.find(|c| !is_part(c)).unwrap_or(rest.len())
+        };
+        let (before, behind) = (&formula[..at], &formula[at + 1..]);
+        let of_joint = before.strip_suffix("joint").filter(|rest| !rest.ends_with(is_part));
+        if let Some((rest, name)) = of_joint.zip(joint_name(behind)) {
+            let word = at + 1 + name.len() + 1;
+            let end = end_of_word(word);
+            let measure = self.of_joint(name, start + at + 1, &formula[word..end])?;
+            return Some(Some((rest.len()..end, measure)));
+        }
+        if let Some((begin, name, measure)) = self.of_mark(before, behind, start + at + 1) {
+            return Some(Some((begin..at + 1 + name.len(), measure?)));
+        }
+        if let Some(name) = self.emitter_name(before, behind) {
+            let word = at + 1 + name.len() + 1;
+            let end = end_of_word(word);
+            let measure = self.of_emitter(name, start + at + 1, start + word..start + end)?;
+            return Some(Some((at - "emitter".len()..end, measure)));
+        }
+        if let Some((name, rest)) = self.force_name(before, behind) {
+            let (measure, length) = self.of_force(name, start + at + 1, rest)?;
+            let end = at + 1 + name.len() + 1 + length;
+            return Some(Some((at - "force".len()..end, measure)));
+        }
+        let Some(Dotted { body, word }) = dotted_at(formula, at) else { return Some(None) };
+        let subject = self.subject(&formula[body.clone()], start + body.start)?;
+        let (measure, end) = self.of_body(subject, formula, start, (body.start, word))?;
+        Some(Some((body.start..end, measure)))
     }
 
     /// Adds to `dotted` a name whose dots have been replaced, with its measure. Reports an error if the replacement makes two different

@@ -75,7 +75,8 @@ impl Reader<'_, '_, '_> {
             Measure::Joint(joint, measure) => (measure.unit_of(&self.things.joints[joint].kind), false),
             Measure::Force(_, _, measure) => (measure.unit(), false),
             Measure::Impacts(_) => ("", true),
-            Measure::Distance(..) | Measure::Length(_) => ("m", false),
+            Measure::Emitter(_, measure) => (measure.unit(), measure.is_count()),
+            Measure::Distance(..) | Measure::Closest(_) | Measure::Length(_) => ("m", false),
             Measure::Angle(_) => ("°", false),
             Measure::Area(_) => ("m²", false),
             Measure::Aggregate(number) => {
