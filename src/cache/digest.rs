@@ -48,6 +48,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
         fields: _,
         arrow_marks: _,
         approaches: _,
+        file_columns: _,
         aggregates: _,
         scale_bar: _,
         grid: _,

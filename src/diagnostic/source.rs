@@ -58,6 +58,17 @@ impl Sources {
         SourceId(self.texts.len() - 1)
     }
 
+    /// Returns whether a word stands in one of the texts.
+    pub fn mentions(&self, word: &str) -> bool {
+        let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let stands_in = |text: &str| {
+            text.match_indices(word).any(|(at, _)| {
+                !text[..at].ends_with(is_part) && !text[at + word.len()..].starts_with(is_part)
+            })
+        };
+        self.texts.iter().any(|source| stands_in(&source.text))
+    }
+
     /// Records the path of a file that was read for the scene, or that would have been read if it existed.
     pub fn note_file(&mut self, path: impl Into<PathBuf>) {
         let path = path.into();

@@ -84,6 +84,7 @@ mod drawn_field;
 mod emitter;
 mod expand;
 pub mod expression;
+mod file_columns;
 mod force;
 pub mod grammar;
 mod joint;
@@ -121,6 +122,7 @@ pub use contact::{Collider, ContactLaw, is_by_moreau};
 pub use drawn_field::{DrawnField, FieldStyle};
 pub use emitter::Emitter;
 pub(crate) use expand::in_string;
+pub use file_columns::{FileColumn, FileColumns};
 pub use force::{Force, ForceKind};
 pub use joint::{Joint, JointKind, JointLook, PrescribedCoordinate};
 pub use label::{Corner, Format, Grid, GridPlane, Label, LabelPlace, Piece, ScaleBar, Side};
@@ -192,6 +194,8 @@ pub struct Scene {
     /// The pairs of bodies whose impacts the labels count, as indices of bodies with the smaller index first. An index equal to the number
     /// of bodies means the ground.
     pub pairs: Vec<[usize; 2]>,
+    /// The further columns of trajectory files that formulas can name.
+    pub file_columns: FileColumns,
     /// The pairs of bodies whose smallest distances formulas use, as indices of bodies with the smaller index first.
     pub approaches: Vec<[usize; 2]>,
     /// The sums, means and extremes over several bodies that labels and plots show.

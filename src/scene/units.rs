@@ -131,6 +131,12 @@ pub(super) fn factor(unit: &str, of: &str) -> Option<f64> {
     UNITS.iter().find(is_it).map(|known| known.factor)
 }
 
+/// Returns the scene language's unit for the quantity that a unit measures, and the factor that converts to it. `None` for unknown units.
+pub(super) fn si(unit: &str) -> Option<(&'static str, f64)> {
+    let known = UNITS.iter().find(|known| known.names.contains(&unit))?;
+    Some((if known.of == "degrees" { "°" } else { known.of }, known.factor))
+}
+
 /// Returns whether a word is probably meant as a unit.
 pub(super) fn is_unit(word: &str) -> bool {
     UNITS.iter().any(|unit| unit.names.contains(&word)) || matches!(word, "Pa" | "K" | "V" | "A")

@@ -22,8 +22,8 @@ use crate::physics::{
     Presence, Reaction, RigidBody, World, find,
 };
 use crate::scene::{
-    Aggregate, Angle, Body, BodyMeasure, Distance, ForceMeasure, JointState, Measure, MeasureFormula,
-    Quantity, RunMeasure, Scene, Subject,
+    Aggregate, Angle, Body, BodyMeasure, Distance, FileColumns, ForceMeasure, JointState, Measure,
+    MeasureFormula, Quantity, RunMeasure, Scene, Subject,
 };
 
 /// What is known at a moment: at a frame, or at the time of a ghost.
@@ -143,6 +143,7 @@ pub struct Measures {
     joints: Vec<Option<Coordinate>>,
     aggregates: Vec<Aggregate>,
     emitters: Vec<Births>,
+    file_columns: FileColumns,
     /// The forces that measures show, by their indices in the scene.
     forces: BTreeMap<usize, ShownForces>,
     /// All forces, if measures show potential energies of bodies.
@@ -167,6 +168,7 @@ impl Measures {
             angles: scene.angles.clone(),
             distances: scene.distances.clone(),
             aggregates: scene.aggregates.clone(),
+            file_columns: scene.file_columns.clone(),
             emitters: scene.emitters.iter().map(|emitter| Births::new(scene, emitter)).collect(),
             forces: shown.chain(with_arrows).collect(),
             all_forces: ShownForces(if shows_potential { forces_of(scene).collect() } else { Vec::new() }),
@@ -229,6 +231,10 @@ impl Measures {
                 let place = |body| find(moment.bodies, body).map(|at| at.location);
                 place(one).zip(place(other)).map_or(f64::NAN, |(one, other)| one.distance(other))
             }
+            Measure::FileColumn(Subject::One(body), column) => {
+                let present = find(moment.bodies, body);
+                present.map_or(f64::NAN, |_| self.file_columns.value(body, column, moment.time))
+            }
             Measure::Closest(pair) => moment.past.closest.get(pair).copied().unwrap_or(f64::NAN),
             Measure::Emitter(number, measure) => self.emitters[number].value(measure, moment.time),
             Measure::Joint(number, measure) => {
@@ -266,6 +272,7 @@ impl Measures {
             // An aggregate asks for the measures of one body after the other.
             Measure::Body(Subject::Each, _)
             | Measure::Distance(Subject::Each, _)
+            | Measure::FileColumn(Subject::Each, _)
             | Measure::Force(_, Some(Subject::Each), _) => f64::NAN,
         }
     }

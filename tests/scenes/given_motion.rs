@@ -290,6 +290,60 @@ fn a_thousand_times_of_a_hundred_bodies_drive_a_hundred_bodies() {
     assert!((0..100).all(|body| off(body) < 1e-12));
 }
 
+/// Further columns of a file are measures of its bodies: between two rows on a straight line, in the unit of the header.
+#[test]
+fn further_columns_of_a_file_are_measures() {
+    let file = "t,body,x,y,z,epot [eV],bonds,kinetic,note\n\
+                0,atom[0],0,0,0,-1,2,7,a\n0,atom[1],3,0,0,-3,4,7,b\n\
+                1,atom[0],1,0,0,-2,4,7,a\n1,atom[1],3,0,0,-7,,7,b\n\
+                2,atom[0],2,0,0,-2,6,7,a\n2,atom[1],3,0,0,-7,8,7,b\n";
+    let scene = "
+        simulation = { duration = 2, frame_rate = 4 }
+        [body.atom]
+        shape.sphere.radius = 0.5
+        mass = 2
+        repeat.count = 2
+        motion.trajectory.file = 'run.csv'
+        material.color.map = { of = 'epot', range = [-8e-19, 0], bar = false }
+        [label.one]
+        text = '${atom[0].epot:eV:.6} ${atom[1].bonds:.3} ${sum(atom.epot):eV:.6} ${atom[0].kinetic:.3}'
+        [label.own]
+        body = 'atom[0]'
+        text = '${epot}'
+        [plot.p]
+        y = ['atom[1].epot:eV', 'atom[1].bonds']
+        ";
+    let place = Place::new(&[("scene.toml", scene), ("run.csv", file)]);
+    let scene_read = place.read("scene.toml");
+    let run = Run::new(&scene_read).unwrap();
+    let said = |frame: &Frame, name: &str| {
+        let texts = run.emitter().plan().texts(frame);
+        texts.iter().find(|text| text.name == name).unwrap().says.replace('−', "-")
+    };
+    let frames: Vec<Frame> = run.frames().map(Result::unwrap).collect();
+    // The measure of the program has precedence over a column of the same name: ½ · 2 kg · (1 m/s)².
+    assert_eq!(said(&frames[2], "one"), "-1.500000 eV -.--- -6.500000 eV 1.000 J".replace("-.---", "–"));
+    assert_eq!(said(&frames[4], "one"), "-2.000000 eV – -9.000000 eV 1.000 J");
+    assert_eq!(said(&frames[8], "one"), "-2.000000 eV 8.000 -9.000000 eV 1.000 J");
+    assert!(said(&frames[8], "own").contains("J"), "{}", said(&frames[8], "own"));
+    let curves = &run.survey().curves;
+    assert!(curves[0].iter().filter_map(|point| point.at).all(|[t, epot]| {
+        let expected = (-3.0 - 4.0 * t).max(-7.0);
+        (epot - expected).abs() < 1e-9
+    }));
+    let drawn: Vec<f64> = curves[1].iter().filter_map(|point| Some(point.at?[0])).collect();
+    assert_eq!(drawn, [0.0, 2.0], "a row without a number leaves a gap");
+    let colors = |frame: &Frame| run.emitter().plan().looks(frame).colors;
+    assert_ne!(colors(&frames[0]), colors(&frames[8]));
+
+    // Only what the file has can be named.
+    let wrong = scene.replace("atom[1].bonds:.3", "atom[1].bond:.3");
+    let place = Place::new(&[("scene.toml", &wrong), ("run.csv", file)]);
+    let report = Scene::from_path(place.path("scene.toml")).unwrap_err().to_string();
+    assert!(report.contains("a body has no `bond` that a label could show"), "{report}");
+    assert!(report.contains("did you mean `bonds`?"), "{report}");
+}
+
 #[test]
 fn another_file_is_another_scene() {
     let scene = "[body.a]\nshape.sphere.radius = 1\nmotion.trajectory.file = 'a.csv'\n";

@@ -159,6 +159,13 @@ impl Reader<'_, '_, '_> {
                 (has_contacts || !measure.needs_contacts()) && (!ghosts || measure.is_of_state())
             });
             known.for_each(|(name, measure, _)| add(name, Measure::Body(body, measure)));
+            let one = match body {
+                Subject::One(body) => Some(body),
+                Subject::Each => None,
+            };
+            let is_measure = |name: &str| BodyMeasure::ALL.iter().any(|(known, ..)| *known == name);
+            let columns = self.context.file_columns.names(one).filter(|(_, name)| !is_measure(name));
+            columns.for_each(|(column, name)| add(name, Measure::FileColumn(body, column)));
         }
         for (name, measure, _) in RunMeasure::ALL {
             // In a label beside a body, a name such as `kinetic` means the measure of that body. A variable of the scene hides a measure.

@@ -53,7 +53,7 @@ use super::grammar::{self, Collection, SCENE, bodies};
 use super::sdl::FileKind;
 use super::source::{self, Table};
 use super::view::{NamedTable, View};
-use super::{Aggregate, Include, Options, Places, PovRay, Scene, read, view};
+use super::{Aggregate, FileColumns, Include, Options, Places, PovRay, Scene, read, view};
 use crate::diagnostic::{Code, Diagnostic, Report, Severity, Sources, Span};
 use crate::physics::{Presence, Track};
 use sha2::{Digest, Sha256};
@@ -124,6 +124,8 @@ struct Context<'a> {
     files: Vec<[u8; 32]>,
     /// The pairs of bodies whose impacts are counted, as indices of bodies.
     pairs: Vec<[usize; 2]>,
+    /// The further columns of trajectory files that formulas can name.
+    file_columns: FileColumns,
     /// The pairs of bodies whose smallest distances formulas use, as indices of bodies.
     approaches: Vec<[usize; 2]>,
     /// The sums, means and extremes over several bodies in the formulas of measures.
@@ -167,6 +169,7 @@ impl Context<'_> {
             validated: HashSet::new(),
             files: Vec::new(),
             pairs: Vec::new(),
+            file_columns: FileColumns::default(),
             approaches: Vec::new(),
             aggregates: Vec::new(),
             color_maps: Vec::new(),
@@ -392,6 +395,7 @@ fn build(
         views: camera::views(known, context),
         lights: look::lights(known, context),
         pairs: std::mem::take(&mut context.pairs),
+        file_columns: std::mem::take(&mut context.file_columns),
         approaches: std::mem::take(&mut context.approaches),
         aggregates: std::mem::take(&mut context.aggregates),
         simulation,

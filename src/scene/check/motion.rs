@@ -9,7 +9,6 @@ use super::view::View;
 use super::{Context, asset, body, presence};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{Interpolation, Keyframe, Presence, Track};
-use crate::scene::SimulationSettings;
 use crate::scene::expand::in_string;
 use crate::scene::grammar::motion::trajectory as trajectory_keys;
 use crate::scene::grammar::motion::{columns, formula, keyframe, keyframes, motion, turning};
@@ -18,6 +17,7 @@ use crate::scene::motion::{BodyMotion, TimedOrientation};
 use crate::scene::source::{Node, Value};
 use crate::scene::timed::{TimeFormula, TimedVector};
 use crate::scene::value;
+use crate::scene::{FileColumn, SimulationSettings};
 
 /// The maximum number of keyframes in all tracks together. If bodies with different orientations share the rows of a file, the rows count
 /// once for each orientation.
@@ -259,6 +259,22 @@ fn interpolation(word: &str) -> Interpolation {
     }
 }
 
+/// Notes the further columns in the rows of a body, so that formulas can name them. `rows_of` is the name of the body in the file.
+fn note_columns(name: &str, recording: &Recording, rows_of: &Option<String>, context: &mut Context<'_>) {
+    let (Some(keys), Some(values)) = (recording.rows.get(rows_of), recording.values.get(rows_of)) else {
+        return;
+    };
+    let Some(&body) = context.names.bodies.get(name).filter(|_| !recording.further.is_empty()) else {
+        return;
+    };
+    let times: Arc<[f64]> = keys.iter().map(|key| key.time).collect();
+    for (number, (column, unit)) in recording.further.iter().enumerate() {
+        let values = values.iter().map(|row| row[number]).collect();
+        let times = Arc::clone(&times);
+        context.file_columns.add(body, column, unit, FileColumn { times, values });
+    }
+}
+
 fn by_trajectory(
     name: &str,
     view: &View<'_>,
@@ -283,6 +299,8 @@ fn by_trajectory(
         context.diagnostics.push(trajectory::no_rows(&recording, wanted, at));
         return None;
     };
+    let rows_of = recording.rows.contains_key(&Some(wanted.to_owned())).then(|| wanted.to_owned());
+    note_columns(name, &recording, &rows_of, context);
     if context.measured.insert(Arc::as_ptr(&recording).addr()) {
         presence::short(
             view.get(&trajectory_keys::FILE).unwrap_or_default(),

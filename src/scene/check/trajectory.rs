@@ -31,6 +31,10 @@ pub(super) struct Recording {
     pub(super) rows: HashMap<Option<String>, Vec<Keyframe>>,
     /// The distinct times of all rows, in ascending order, s.
     pub(super) times: Vec<f64>,
+    /// The further columns that the scene may name, each with its name and the symbol of its unit.
+    pub(super) further: Vec<(String, &'static str)>,
+    /// The values in these columns in each row, grouped by the name of the body as the rows are. NaN where the file has no number.
+    pub(super) values: HashMap<Option<String>, Vec<Vec<f64>>>,
     /// Whether the file has columns for the orientation.
     pub(super) is_turned: bool,
 }
@@ -54,7 +58,7 @@ pub(super) fn read(
         Ok(text) => {
             context.add_file(text.as_bytes());
             let mut reader = Reader::new(&text);
-            let recording = reader.read(columns);
+            let recording = reader.read(columns, &|name| context.sources.mentions(name));
             let wrong = reader.wrong;
             if wrong.is_empty() {
                 recording.map(Arc::new)

@@ -100,7 +100,8 @@ table! {
     FILE: Option<value::Text> = KeySpec::new(
         "file",
         File,
-        "The CSV file, beside the scene: a row for each time and body. A body exists from its first row \
+        "The CSV file, beside the scene: a row for each time and body. Further columns, such as `epot`, are measures of \
+         the body. A body exists from its first row \
          to its last, except in gaps: the file then has rows of other bodies, and none of this one for \
          more than 1.5 times its usual (median) interval",
     )

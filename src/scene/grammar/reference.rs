@@ -415,7 +415,9 @@ that of a spring between them, each has half; beside a fixed or guided body or a
 `force.spring.potential` is the energy of one force, and `force.spring.ball.potential` the body's share of it.
 
 Elsewhere, a variable of the scene hides a measure of the run with the same name. In the table, words in capitals stand for names: `BODY` and
-`OTHER` for bodies, `NAME` for a joint or a force. `jabuka list measures` prints it.
+`OTHER` for bodies, `NAME` for a joint, a force, an emitter or a mark. `jabuka list measures` prints it. A body with a
+`motion.trajectory` also has the further columns of its file as measures: with a column `epot [eV]`, `${atom.epot:eV}` is its value, on a
+straight line between two rows. A measure of the table has precedence over a column of the same name.
 
 In the texts of labels and plots, `v_0` and `m/s^2` are subscripts and superscripts, as are `x_{max}` and `10^{-6}`, with any letters in braces. Without
 braces, only a single letter has a subscript, so `my_ball` stays as it is. A backslash makes the sign itself: `'v\\_0'` in single quotes.

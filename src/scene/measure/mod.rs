@@ -94,6 +94,8 @@ pub enum Measure {
     Impacts(usize),
     /// A quantity of one emitter. The number is the index of the emitter in the scene.
     Emitter(usize, EmitterMeasure),
+    /// A further column of the trajectory file of a body. The number is the index of the column in `file_columns` of the scene.
+    FileColumn(Subject, usize),
     /// The smallest distance so far between the centers of two bodies, m. The number is an index into `approaches` of the scene.
     Closest(usize),
     /// The distance between the centers of two bodies, m. The number is the index of the second body in the scene.
@@ -178,6 +180,7 @@ impl Measure {
             Measure::Body(Subject::Each, measure) => Measure::Body(one, measure),
             Measure::Force(force, Some(Subject::Each), measure) => Measure::Force(force, Some(one), measure),
             Measure::Distance(Subject::Each, other) => Measure::Distance(one, other),
+            Measure::FileColumn(Subject::Each, column) => Measure::FileColumn(one, column),
             other => other,
         }
     }

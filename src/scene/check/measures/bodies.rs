@@ -105,9 +105,19 @@ impl Reader<'_, '_, '_> {
             };
             return Some((self.of_approach([one, number]), end));
         }
-        let Some((_, known, _)) = BodyMeasure::ALL.into_iter().find(|(name, ..)| *name == measure) else {
+        let known = BodyMeasure::ALL.into_iter().find(|(name, ..)| *name == measure);
+        let body = match subject {
+            Subject::One(body) => Some(body),
+            Subject::Each => None,
+        };
+        let columns = &self.context.file_columns;
+        if let (None, Some((column, _))) = (known, columns.names(body).find(|(_, name)| *name == measure)) {
+            return Some((Measure::FileColumn(subject, column), end));
+        }
+        let Some((_, known, _)) = known else {
             let names: Vec<&str> =
                 BodyMeasure::ALL.iter().map(|(name, ..)| *name).chain([DISTANCE, CLOSEST]).collect();
+            let columns: Vec<String> = columns.names(body).map(|(_, name)| name.to_owned()).collect();
             let message = format!("a body has no `{measure}` that a {} could show", self.noun);
             let rest = formula[end..].strip_prefix('.');
             let axis = rest.map(|rest| &rest[..rest.find(|c| !is_part(c)).unwrap_or(rest.len())]);
@@ -119,7 +129,8 @@ impl Reader<'_, '_, '_> {
             let here = self.at(&(start + word.start..start + end));
             let error = Diagnostic::error(Code::UnknownName, message);
             let known = format!("there are {}", quoted(&names));
-            let near = || nearest(measure, names.iter().copied()).map(str::to_owned);
+            let all = names.iter().copied().chain(columns.iter().map(String::as_str));
+            let near = || nearest(measure, all).map(str::to_owned);
             self.context.diagnostics.push(match other.or_else(near) {
                 Some(near) => {
                     let error = error.at(here, format!("did you mean `{near}`?")).help(known);

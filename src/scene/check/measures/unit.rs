@@ -75,6 +75,7 @@ impl Reader<'_, '_, '_> {
             Measure::Joint(joint, measure) => (measure.unit_of(&self.things.joints[joint].kind), false),
             Measure::Force(_, _, measure) => (measure.unit(), false),
             Measure::Impacts(_) => ("", true),
+            Measure::FileColumn(_, column) => (self.context.file_columns.unit(column), false),
             Measure::Emitter(_, measure) => (measure.unit(), measure.is_count()),
             Measure::Distance(..) | Measure::Closest(_) | Measure::Length(_) => ("m", false),
             Measure::Angle(_) => ("°", false),

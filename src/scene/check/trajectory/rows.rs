@@ -7,11 +7,12 @@ use glam::{DQuat, DVec3};
 
 use super::Recording;
 use super::columns::{
-    ANGULAR_VELOCITY_UNIT, Column, Columns, LENGTH_UNIT, NO_UNIT, TIME_UNIT, VELOCITY_UNIT,
+    ANGULAR_VELOCITY_UNIT, Column, Columns, LENGTH_UNIT, NO_UNIT, TIME_UNIT, VELOCITY_UNIT, unit_of,
 };
 use super::fields::Fields;
 use crate::diagnostic::Code;
 use crate::physics::Keyframe;
+use crate::scene::units;
 
 /// A mistake in a trajectory file, before its position is turned into a source span.
 pub(super) struct Wrong {
@@ -36,8 +37,9 @@ impl<'a> Reader<'a> {
         Reader { fields: Fields::new(text), wrong: Vec::new() }
     }
 
-    /// Reads the rows of the file. Returns `None` and collects errors if the file has mistakes.
-    pub(super) fn read(&mut self, columns: &Columns) -> Option<Recording> {
+    /// Reads the rows of the file. Of columns that are not part of the motion, keeps those that `is_named` accepts. Returns `None` and collects
+    /// errors if the file has mistakes.
+    pub(super) fn read(&mut self, columns: &Columns, is_named: &dyn Fn(&str) -> bool) -> Option<Recording> {
         let text = self.fields.text;
         let mut csv = self.fields.reader();
         let header = match csv.headers() {
@@ -63,7 +65,15 @@ impl<'a> Reader<'a> {
             return None;
         }
 
-        let mut recording = Recording { is_turned: orientation.is_some(), ..Recording::default() };
+        let groups = [Some(&location), orientation.as_ref(), velocity.as_ref(), turning.as_ref()];
+        let used = groups.into_iter().flatten().flatten().chain([&time]).map(|(column, _)| *column);
+        let used: Vec<usize> = used.chain(body).collect();
+        let further = further(&header, &used, is_named);
+        let mut recording = Recording {
+            is_turned: orientation.is_some(),
+            further: further.iter().map(|(_, name, (unit, _))| (name.clone(), *unit)).collect(),
+            ..Recording::default()
+        };
         let mut record = StringRecord::new();
         loop {
             match csv.read_record(&mut record) {
@@ -96,6 +106,7 @@ impl<'a> Reader<'a> {
                 break;
             }
             let (Some(time), Some(location), Some(orientation)) = (time, place, turned) else { continue };
+            let values = recording.values.entry(name.clone()).or_default();
             let keys = recording.rows.entry(name).or_default();
             if let Some(last) = keys.last().filter(|last| last.time >= time) {
                 let message =
@@ -108,6 +119,13 @@ impl<'a> Reader<'a> {
                 }
                 continue;
             }
+            values.extend((!further.is_empty()).then(|| {
+                let value = |(column, _, (_, factor)): &(usize, String, (&str, f64))| {
+                    let field = record.get(*column).and_then(|field| field.parse::<f64>().ok());
+                    field.filter(|value| value.is_finite()).map_or(f64::NAN, |value| value * factor)
+                };
+                further.iter().map(value).collect()
+            }));
             keys.push(Keyframe {
                 time,
                 location,
@@ -173,4 +191,21 @@ impl<'a> Reader<'a> {
             self.wrong.push(Wrong { code, message, at, label: String::new(), help: None });
         }
     }
+}
+
+/// Returns the columns of a header that are not used, and whose names `is_named` accepts: the index of each, its name, and its unit in SI with the
+/// factor that converts to it. A column with an unknown unit has none.
+fn further(
+    header: &StringRecord,
+    used: &[usize],
+    is_named: &dyn Fn(&str) -> bool,
+) -> Vec<(usize, String, (&'static str, f64))> {
+    let others = header.iter().enumerate().filter(|(column, _)| !used.contains(column));
+    let named = others.filter_map(|(column, field)| {
+        let (name, unit) = unit_of(field);
+        let is_name = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+            && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+        (is_name && is_named(name)).then(|| (column, name.to_owned(), units::si(unit).unwrap_or(("", 1.0))))
+    });
+    named.collect()
 }
