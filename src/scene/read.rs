@@ -151,7 +151,7 @@ pub(super) fn varying(node: &Node, bound: Bound) -> Result<Written<'_>, Diagnost
             number(node, bound).map(|number| Written::Timed(Timed::Constant(number)))
         }
         // The formula of the time has been reported. Formulas of measures beside it are still read.
-        Value::Invalid => Ok(Written::Timed(Timed::Constant(0.0))),
+        Value::Invalid => Ok(Written::Timed(Timed::Constant(f64::NAN))),
         _ => Err(wrong_type(node, &Kind::Varying(bound))),
     }
 }

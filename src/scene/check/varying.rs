@@ -10,7 +10,8 @@ use crate::scene::timed::Timed;
 use crate::scene::varying::{Varying, VaryingPoint};
 
 impl Known<'_, '_> {
-    /// Makes a number of what is written. `noun` is what it belongs to, for messages. A number with an error reads as 0.
+    /// Makes a number of what is written. `noun` is what it belongs to, for messages. A number with an error reads as NaN, so that no
+    /// other error follows from it.
     pub(super) fn number(
         self,
         noun: &'static str,
@@ -22,7 +23,8 @@ impl Known<'_, '_> {
             Written::Measured(text, span) => {
                 let mut reader = Reader::new(noun, (text, span), self.root, None, self.things, context);
                 let formula = reader.formula_with_unit(0..text.len());
-                formula.map_or(Varying::Timed(Timed::Constant(0.0)), |it| Varying::Measured(Arc::new(it)))
+                formula
+                    .map_or(Varying::Timed(Timed::Constant(f64::NAN)), |it| Varying::Measured(Arc::new(it)))
             }
         }
     }
