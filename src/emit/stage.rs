@@ -43,6 +43,8 @@ pub(super) struct CameraText {
     angle: Option<f64>,
     /// The width of the view of an orthographic camera, POV-Ray units.
     width: Option<f64>,
+    /// The direction that points up in the picture, a unit vector. `None` for a camera that is upright.
+    sky: Option<[f64; 3]>,
     /// True if the camera looks straight up or down. The vertical then cannot be the upward direction of the picture.
     vertical: bool,
     /// True if the pictures are so wide that the view is measured by their width instead of their height.
@@ -121,6 +123,7 @@ impl CameraText {
             look_at: (camera.look_at() / unit).to_array(),
             angle,
             width,
+            sky: camera.sky().map(|sky| sky.to_array()),
             vertical: camera.is_vertical(),
             wide: camera.is_wide(),
             aperture: camera.blur().map(|blur| blur.aperture / unit),

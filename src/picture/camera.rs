@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::followed::FollowedValues;
-use super::framing::{self, Field, Framing, Free};
+use super::framing::{self, Field, Framing, Free, Tilt};
 use super::plots;
 use super::screen::Screen;
 use crate::scene::{Blur, Body, Camera, MeasureFormula, Output, Projection, Scene, VaryingPoint};
@@ -19,6 +19,7 @@ pub struct Placed {
     location: DVec3,
     look_at: DVec3,
     lens: Lens,
+    tilt: Tilt,
     blur: Option<Blur>,
     output: Output,
 }
@@ -43,24 +44,30 @@ impl Placed {
     /// shows all of the bounds.
     fn new(camera: &Camera, bounds: Bounds, towards: DVec3, scene: &Scene) -> Placed {
         let output = scene.output;
+        let tilt = Tilt { up: camera.up, roll: camera.roll };
+        let towards = tilt.turned(towards);
         // A camera that is placed or moved by the scene keeps what it looks at in the middle.
         let is_free = camera.location.is_none() && camera.look_at.is_none() && !camera.motion.moves();
         let free = if is_free { plots::free(scene) } else { Free::ALL };
         let (lens, auto) = match camera.projection {
             Projection::Perspective { angle } => {
                 let field = Field::new(angle, output).within(free);
-                (Lens::Perspective { angle }, framing::perspective(bounds, field, camera.look_at, towards))
+                (
+                    Lens::Perspective { angle },
+                    framing::perspective(bounds, field, camera.look_at, towards, tilt),
+                )
             }
             Projection::Orthographic { width } => {
                 let given = camera.location.zip(camera.look_at).map(|(location, look_at)| location - look_at);
                 let towards = given.unwrap_or(towards);
-                let (auto, seen) = framing::orthographic(bounds, output, camera.look_at, towards, free);
+                let (auto, seen) =
+                    framing::orthographic(bounds, output, camera.look_at, (towards, tilt), free);
                 (Lens::Orthographic { width: width.unwrap_or(seen) }, auto)
             }
         };
         let location = camera.location.unwrap_or(auto.location);
         let look_at = camera.look_at.unwrap_or_else(|| aim(location, auto));
-        Placed { location, look_at, lens, blur: camera.blur, output }
+        Placed { location, look_at, lens, tilt, blur: camera.blur, output }
     }
 
     /// The camera at a time (s). The followed body has the half-width `size` (m). It was at `start` in the first frame, and is at `here`
@@ -84,7 +91,11 @@ impl Placed {
             location = here + away.normalize_or(DVec3::Z) * follow.distance.unwrap_or(usual);
         }
         if let Some(period) = motion.orbit {
-            let turn = DQuat::from_rotation_y(std::f64::consts::TAU * time / period);
+            let angle = std::f64::consts::TAU * time / period;
+            let turn = match self.tilt.up {
+                Some(up) => DQuat::from_axis_angle(up, angle),
+                None => DQuat::from_rotation_y(angle),
+            };
             location = look_at + turn * (location - look_at);
         }
         // A camera at the point that it looks at has no direction, so keep its initial direction.
@@ -97,7 +108,8 @@ impl Placed {
             }
             (lens, _) => lens,
         };
-        Placed { location, look_at, lens, blur: self.blur, output: self.output }
+        let roll = motion.roll.as_ref().map_or(self.tilt.roll, |roll| roll.at(time, &value));
+        Placed { location, look_at, lens, tilt: Tilt { roll, ..self.tilt }, ..*self }
     }
 
     /// The position of the camera in the world, m.
@@ -132,6 +144,12 @@ impl Placed {
     /// The point that is in focus, m. `None` if everything is in focus.
     pub fn focus(&self) -> Option<DVec3> {
         self.blur.map(|blur| blur.focus.unwrap_or(self.look_at))
+    }
+
+    /// The direction in the world that points up in the picture, a unit vector across the line of sight. `None` for a camera that is upright.
+    pub fn sky(&self) -> Option<DVec3> {
+        let (_, up, _) = self.tilt.axes((self.location - self.look_at).normalize_or(DVec3::Z));
+        (!self.tilt.is_upright()).then_some(up)
     }
 
     /// True if the camera looks straight up or down. The upper edge of its picture then points away from the viewer.
@@ -180,7 +198,7 @@ impl Placed {
             Lens::Perspective { angle } => (Some(libm::tan(angle.to_radians() / 2.0)), 0.0),
             Lens::Orthographic { width } => (None, width),
         };
-        Screen::new(self.location, self.look_at, slope, width, self.focus())
+        Screen::new(self.location, self.look_at, self.sky(), (slope, width), self.focus())
     }
 }
 
@@ -261,7 +279,7 @@ impl MovingCamera {
     }
 }
 
-/// Returns the camera with the initial location, target and angle that follow from the measures at the start.
+/// Returns the camera with the initial location, target and angles that follow from the measures at the start.
 fn at_start(camera: &Camera, followed: &FollowedValues) -> Camera {
     let value = followed.at_start();
     let point = |point: &Option<VaryingPoint>| Some(point.as_ref()?.at(0.0, &value));
@@ -276,6 +294,7 @@ fn at_start(camera: &Camera, followed: &FollowedValues) -> Camera {
         location: camera.location.or_else(|| point(&motion.location)),
         look_at: camera.look_at.or_else(|| point(&motion.look_at)),
         projection,
+        roll: motion.roll.as_ref().map_or(camera.roll, |roll| roll.at(0.0, &value)),
         ..camera.clone()
     }
 }

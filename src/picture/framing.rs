@@ -1,6 +1,6 @@
 //! Chooses the position of a camera for which the scene gives none.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::sight::Sight;
 use crate::decimal::decimal_step;
@@ -100,8 +100,14 @@ impl Field {
 
 /// Places a perspective camera in the direction `towards` so that the bounds fill the picture. If the scene gives the aim `look_at`, only
 /// the distance is chosen.
-pub(super) fn perspective(bounds: Bounds, field: Field, look_at: Option<DVec3>, towards: DVec3) -> Framing {
-    let (right, up, back) = axes(towards);
+pub(super) fn perspective(
+    bounds: Bounds,
+    field: Field,
+    look_at: Option<DVec3>,
+    towards: DVec3,
+    tilt: Tilt,
+) -> Framing {
+    let (right, up, back) = tilt.axes(towards);
     let corners = corners(bounds);
     let mut aim = look_at.unwrap_or((bounds.min + bounds.max) / 2.0);
     let mut distance = distance(&corners, aim, (right, up, back), field);
@@ -124,10 +130,10 @@ pub(super) fn orthographic(
     bounds: Bounds,
     output: Output,
     look_at: Option<DVec3>,
-    towards: DVec3,
+    (towards, tilt): (DVec3, Tilt),
     free: Free,
 ) -> (Framing, f64) {
-    let (right, up, back) = axes(towards);
+    let (right, up, back) = tilt.axes(towards);
     let middle = (bounds.min + bounds.max) / 2.0;
     let aim = look_at.unwrap_or(middle);
     let aspect = f64::from(output.width) / f64::from(output.height);
@@ -142,12 +148,38 @@ pub(super) fn orthographic(
     (rounded(aim, back, distance), width)
 }
 
-/// The unit vectors of a camera to the right, up and back, from the direction towards the camera.
-fn axes(towards_camera: DVec3) -> (DVec3, DVec3, DVec3) {
-    let back = towards_camera.normalize();
-    // For a camera that looks straight down, the picture's upper edge points away from the viewer.
-    let right = DVec3::Y.cross(back).try_normalize().unwrap_or(DVec3::X);
-    (right, back.cross(right), back)
+/// The direction that points up in the pictures of a camera.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Tilt {
+    /// The direction that points up without a roll, a unit vector. `None` for the vertical.
+    pub(super) up: Option<DVec3>,
+    /// The angle by which the camera is turned about its line of sight, degrees: clockwise as seen from behind it.
+    pub(super) roll: f64,
+}
+
+impl Tilt {
+    /// Returns whether the camera is upright.
+    pub(super) fn is_upright(self) -> bool {
+        self == Tilt::default()
+    }
+
+    /// Turns a direction of an upright camera to the same one of a camera with this upward direction.
+    pub(super) fn turned(self, direction: DVec3) -> DVec3 {
+        self.up.map_or(direction, |up| DQuat::from_rotation_arc(DVec3::Y, up) * direction)
+    }
+
+    /// The unit vectors of a camera to the right, up and back, from the direction towards the camera.
+    pub(super) fn axes(self, towards_camera: DVec3) -> (DVec3, DVec3, DVec3) {
+        let back = towards_camera.normalize();
+        // For a camera that looks straight down, the picture's upper edge points away from the viewer.
+        let right = self.up.unwrap_or(DVec3::Y).cross(back).try_normalize().unwrap_or(DVec3::X);
+        let up = back.cross(right);
+        if self.roll == 0.0 {
+            return (right, up, back);
+        }
+        let (sin, cos) = libm::sincos(self.roll.to_radians());
+        (right * cos - up * sin, up * cos + right * sin, back)
+    }
 }
 
 /// Rounds the position and the aim of a camera to about three digits of its distance.
@@ -215,6 +247,8 @@ pub(crate) fn rounded_outward(bounds: Bounds) -> Bounds {
 mod tests {
     use super::*;
 
+    const UPRIGHT: Tilt = Tilt { up: None, roll: 0.0 };
+
     const WIDE: Output = Output {
         decimal: crate::scene::DecimalSign::Point,
         width: 1280,
@@ -232,8 +266,8 @@ mod tests {
             Bounds { min: DVec3::new(0.0, 0.0, -40.0), max: DVec3::new(1.0, 1.0, 40.0) },
         ] {
             let field = Field::new(40.0, WIDE);
-            let framing = perspective(bounds, field, None, towards_camera(bounds, Sight::default()));
-            let (right, up, back) = axes(framing.location - framing.look_at);
+            let framing = perspective(bounds, field, None, towards_camera(bounds, Sight::default()), UPRIGHT);
+            let (right, up, back) = UPRIGHT.axes(framing.location - framing.look_at);
             let mut fullest: f64 = 0.0;
             for corner in corners(bounds) {
                 let offset = corner - framing.location;
@@ -256,10 +290,10 @@ mod tests {
             Bounds { min: DVec3::new(-2.0, 0.0, -1.0), max: DVec3::new(62.0, 12.0, 1.0) },
         ] {
             let field = Field::new(40.0, WIDE).within(free);
-            let framing = perspective(bounds, field, None, towards_camera(bounds, Sight::default()));
-            let (right, up, back) = axes(framing.location - framing.look_at);
+            let framing = perspective(bounds, field, None, towards_camera(bounds, Sight::default()), UPRIGHT);
+            let (right, up, back) = UPRIGHT.axes(framing.location - framing.look_at);
             let (flat, width) =
-                orthographic(bounds, WIDE, None, towards_camera(bounds, Sight::default()), free);
+                orthographic(bounds, WIDE, None, (towards_camera(bounds, Sight::default()), UPRIGHT), free);
             let mut fullest = [0.0_f64; 2];
             for corner in corners(bounds) {
                 let offset = corner - framing.location;
@@ -283,8 +317,8 @@ mod tests {
         for towards in
             [towards_camera(bounds, Sight::default()), DVec3::Y, DVec3::Z, DVec3::new(1.0, 1.0, 1.0)]
         {
-            let (framing, width) = orthographic(bounds, WIDE, None, towards, Free::ALL);
-            let (right, up, _) = axes(towards);
+            let (framing, width) = orthographic(bounds, WIDE, None, (towards, UPRIGHT), Free::ALL);
+            let (right, up, _) = UPRIGHT.axes(towards);
             let mut fullest: f64 = 0.0;
             for corner in corners(bounds) {
                 let offset = corner - framing.look_at;
@@ -343,11 +377,11 @@ mod tests {
     fn the_camera_stands_in_front_of_an_aim_that_is_in_front_of_everything() {
         let bounds = Bounds { min: DVec3::splat(-1.0), max: DVec3::splat(1.0) };
         let towards = DVec3::new(1.0, 1.0, 4.0);
-        let (right, up, back) = axes(towards);
+        let (right, up, back) = UPRIGHT.axes(towards);
         let field = Field::new(60.0, WIDE);
         let aim = back * 9000.0;
         assert_eq!(distance(&corners(bounds), aim, (right, up, back), field), 0.0, "every distance will do");
-        let framing = perspective(bounds, field, Some(aim), towards);
+        let framing = perspective(bounds, field, Some(aim), towards, UPRIGHT);
         let size = (bounds.max - bounds.min).length();
         let ahead = (framing.location - framing.look_at).dot(back);
         assert!((ahead / size - 1.0).abs() < 0.02, "{framing:?}");

@@ -33,19 +33,23 @@ pub struct ScreenPoint {
 }
 
 impl Screen {
-    /// Creates the image plane of a camera at `location` that looks at `look_at`. The view is limited by the tangent `slope` of half its
-    /// angle or, for parallel rays, by a width (m). `sharp` is the point in focus; with depth of field, the plane must be at its depth.
+    /// Creates the image plane of a camera at `location` that looks at `look_at`. The direction `sky` points up; `None` for an upright camera.
+    /// The view is limited by the tangent `slope` of half its angle or, for parallel rays, by a width (m). `sharp` is the point in focus; with depth of field, the plane must be at its depth.
     pub(super) fn new(
         location: DVec3,
         look_at: DVec3,
-        slope: Option<f64>,
-        width: f64,
+        sky: Option<DVec3>,
+        (slope, width): (Option<f64>, f64),
         sharp: Option<DVec3>,
     ) -> Screen {
         let back = (location - look_at).normalize_or(DVec3::Z);
         // A camera that looks straight up or down has the same orientation as in [`Placed`](super::Placed).
         let vertical = back.x.abs().max(back.z.abs()) < 1e-6 * back.y.abs();
-        let right = if vertical { DVec3::X } else { DVec3::Y.cross(back).normalize_or(DVec3::X) };
+        let right = match sky {
+            Some(sky) => sky.cross(back).normalize_or(DVec3::X),
+            None if vertical => DVec3::X,
+            None => DVec3::Y.cross(back).normalize_or(DVec3::X),
+        };
         let depth = match sharp {
             Some(point) => (location - point).dot(back),
             None => NEAR * location.distance(look_at),
@@ -108,7 +112,7 @@ mod tests {
 
     #[test]
     fn what_is_looked_at_is_in_the_middle_and_edges_are_at_1() {
-        let screen = Screen::new(DVec3::new(0.0, 0.0, 10.0), DVec3::ZERO, Some(0.5), 0.0, None);
+        let screen = Screen::new(DVec3::new(0.0, 0.0, 10.0), DVec3::ZERO, None, (Some(0.5), 0.0), None);
         assert_eq!(screen.project(DVec3::ZERO), Some(ScreenPoint { x: 0.0, y: 0.0, scale: 0.2 }));
         let edge = screen.project(DVec3::new(5.0, -2.0, 0.0)).unwrap();
         assert!((edge.x - 1.0).abs() < 1e-12 && (edge.y + 0.4).abs() < 1e-12);
@@ -117,7 +121,7 @@ mod tests {
 
     #[test]
     fn parallel_rays_show_everything_in_one_size() {
-        let screen = Screen::new(DVec3::new(0.0, 9.0, 0.0), DVec3::ZERO, None, 4.0, None);
+        let screen = Screen::new(DVec3::new(0.0, 9.0, 0.0), DVec3::ZERO, None, (None, 4.0), None);
         for height in [-5.0, 0.0, 5.0] {
             let projected = screen.project(DVec3::new(1.0, height, 1.0)).unwrap();
             assert!((projected.x - 0.5).abs() < 1e-12 && (projected.y + 0.5).abs() < 1e-12, "{projected:?}");
@@ -127,7 +131,7 @@ mod tests {
     #[test]
     fn a_ray_through_a_place_is_seen_there() {
         for slope in [Some(0.5), None] {
-            let screen = Screen::new(DVec3::new(3.0, 4.0, 10.0), DVec3::ZERO, slope, 4.0, None);
+            let screen = Screen::new(DVec3::new(3.0, 4.0, 10.0), DVec3::ZERO, None, (slope, 4.0), None);
             let (origin, direction) = screen.ray(0.7, -0.3);
             for far in [5.0, 40.0] {
                 let projected = screen.project(origin + direction * far).unwrap();

@@ -46,6 +46,8 @@ pub(super) struct Shown<'a> {
 pub(super) struct Camera {
     location: Vector,
     look_at: Vector,
+    /// The direction that points up in the picture. `None` for an upright camera.
+    up: Option<Vector>,
     /// The horizontal angle of view of a perspective camera, degrees.
     angle: Option<f64>,
     /// The width of the view of an orthographic camera, m.
@@ -177,7 +179,8 @@ impl Camera {
             Lens::Orthographic { width } => (None, Some(width)),
         };
         let (location, look_at) = (placed.location().to_array(), placed.look_at().to_array());
-        Camera { location, look_at, angle, width }
+        let up = placed.sky().map(|sky| sky.to_array());
+        Camera { location, look_at, up, angle, width }
     }
 }
 

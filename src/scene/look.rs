@@ -169,6 +169,10 @@ pub struct Camera {
     /// The initial target of the camera, m: the point in the middle of the picture. `None` for a target that jabuka derives, or that follows
     /// measures.
     pub look_at: Option<DVec3>,
+    /// The direction that points up in the picture, a unit vector. `None` for the vertical.
+    pub up: Option<DVec3>,
+    /// The initial angle by which the camera is turned about its line of sight, degrees: clockwise as seen from behind it.
+    pub roll: f64,
     /// The motion of the camera, such as an orbit around its target.
     pub motion: CameraMotion,
     /// The projection of the camera: perspective or orthographic.
@@ -182,9 +186,9 @@ pub struct Camera {
 impl Camera {
     /// Returns the formulas of measures that the camera follows.
     pub fn formulas(&self) -> impl Iterator<Item = &MeasureFormula> {
-        let CameraMotion { location, look_at, angle, .. } = &self.motion;
+        let CameraMotion { location, look_at, angle, roll, .. } = &self.motion;
         let points = [location, look_at].into_iter().flatten().flat_map(VaryingPoint::formulas);
-        points.chain(angle.iter().filter_map(Varying::formula))
+        points.chain(angle.iter().chain(roll).filter_map(Varying::formula))
     }
 }
 
@@ -197,9 +201,11 @@ pub struct CameraMotion {
     pub look_at: Option<VaryingPoint>,
     /// The horizontal field of view of a perspective camera as a function of time and of measures, degrees.
     pub angle: Option<Varying>,
+    /// The angle by which the camera is turned about its line of sight as a function of time and of measures, degrees.
+    pub roll: Option<Varying>,
     /// The body that the camera follows. `None` if the camera follows no body.
     pub follow: Option<Follow>,
-    /// The period of the camera's orbit about the vertical axis through its target, s.
+    /// The period of the camera's orbit about the upward axis through its target, s.
     pub orbit: Option<f64>,
 }
 
@@ -220,6 +226,7 @@ impl CameraMotion {
         self.location.is_some()
             || self.look_at.is_some()
             || self.angle.is_some()
+            || self.roll.is_some()
             || self.follow.is_some()
             || self.orbit.is_some()
     }

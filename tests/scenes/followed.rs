@@ -131,3 +131,61 @@ fn sdl_with_values_stands_in_each_script() {
     assert_eq!(emitted("#declare A = 3;"), [false, true]);
     assert_eq!(emitted("#declare A = ${t};"), [true, false]);
 }
+
+/// Returns where a camera with these keys sees a point, as fractions of half the width of the picture.
+fn seen(camera: &str, point: [f64; 3], time: f64) -> [f64; 2] {
+    let scene = Scene::parse(&format!("{SCENE}\n[camera]\n{camera}")).unwrap();
+    let run = Run::new(&scene).unwrap();
+    let frame = run.frames().map(Result::unwrap).find(|frame| frame.time >= time - 1e-9).unwrap();
+    let screen = run.emitter().plan().camera(&frame).screen();
+    let at = screen.project(DVec3::from_array(point)).unwrap();
+    [at.x, at.y].map(|number| (1e9 * number).round() / 1e9)
+}
+
+/// Each camera is the first one, turned as a whole with the world, so a turned point is at the same place of its picture.
+#[test]
+fn up_and_roll_turn_the_picture() {
+    let upright = seen("location = [0, 0, 10]\nlook_at = [0, 0, 0]", [1.0, 2.0, 0.0], 0.0);
+    assert!(upright[0] > 0.1 && (upright[1] - 2.0 * upright[0]).abs() < 1e-8);
+    for (camera, point) in [
+        ("location = [10, 0, 0]\nlook_at = [0, 0, 0]\nup = [0, 0, 7]", [0.0, 1.0, 2.0]),
+        ("location = [0, 10, 0]\nlook_at = [0, 0, 0]\nup = [1, 0, 0]", [2.0, 0.0, 1.0]),
+        ("location = [0, 0, 10]\nlook_at = [0, 0, 0]\nup = [0, -1, 3]", [-1.0, -2.0, 0.0]),
+        // A camera that is turned clockwise sees things lean to the left.
+        ("location = [0, 0, 10]\nlook_at = [0, 0, 0]\nroll = 90", [2.0, -1.0, 0.0]),
+        ("location = [0, 0, 10]\nlook_at = [0, 0, 0]\nroll = -90", [-2.0, 1.0, 0.0]),
+        ("location = [0, 0, 10]\nlook_at = [0, 0, 0]\nup = [-1, 0, 0]\nroll = '90'", [1.0, 2.0, 0.0]),
+        // The orbit goes about `up`: after a quarter of the period, the camera is at [0, 10, 0] or at [0, -10, 0].
+        ("location = [10, 0, 0]\nlook_at = [0, 0, 0]\nup = [0, 0, 1]\norbit.period = 2", [-1.0, 0.0, 2.0]),
+    ] {
+        let time = if camera.contains("orbit") { 0.5 } else { 0.0 };
+        assert_eq!(seen(camera, point, time), upright, "{camera}");
+    }
+    let rolled = seen("location = [0, 0, 10]\nlook_at = [0, 0, 0]\nroll = '90*t'", [2.0, -1.0, 0.0], 1.0);
+    assert_eq!(rolled, upright);
+    let wrong = "location = [0, 10, 0]\nlook_at = [0, 0, 0]\nup = [0, 1, 0]";
+    let report = Scene::parse(&format!("{SCENE}\n[camera]\n{wrong}")).unwrap_err().to_string();
+    assert!(report.contains("the camera looks along its `up`"), "{report}");
+}
+
+/// With another upward direction, an automatic camera stands as it does with the vertical, as seen in a world that is turned along.
+#[test]
+fn an_automatic_camera_turns_with_up() {
+    let placed = |keys: &str, ball: &str| {
+        let text = format!(
+            "simulation.duration = 1\nenvironment.ground = false\n{keys}\n[body.a]\nshape.sphere.radius = 0.5\nlocation = {ball}"
+        );
+        let scene = Scene::parse(&text).unwrap();
+        let run = Run::new(&scene).unwrap();
+        let screen = run.emitter().plan().placed().screen();
+        let corner = |point| screen.project(point).unwrap();
+        (*run.emitter().plan().placed(), corner(DVec3::ZERO))
+    };
+    let (upright, seen) = placed("", "[0, 0, 0]");
+    let (turned, then) = placed("camera.up = [0, 0, 1]", "[0, 0, 0]");
+    let way = |camera: jabuka::picture::Placed| camera.location() - camera.look_at();
+    // The rotation from y to z takes z to -y.
+    let expected = DVec3::new(way(upright).x, -way(upright).z, way(upright).y);
+    assert!(way(turned).abs_diff_eq(expected, 0.02 * expected.length()), "{} {expected}", way(turned));
+    assert!((seen.x - then.x).abs() < 0.02 && (seen.y - then.y).abs() < 0.02, "{seen:?} {then:?}");
+}

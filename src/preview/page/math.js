@@ -41,11 +41,14 @@ export function lookAt(eye, { right, up, back }) {
   ]);
 }
 
-/** Returns the axes of a camera that looks from `eye` to `aim`. For a vertical view, x points to the right, as in the scripts. */
-export function axes(eye, aim) {
+/**
+ * Returns the axes of a camera that looks from `eye` to `aim`. The direction `sky` points up; without it, the camera is upright. For a vertical
+ * view, x points to the right, as in the scripts.
+ */
+export function axes(eye, aim, sky) {
   const back = unit(sub(eye, aim), [0, 0, 1]);
   const vertical = Math.max(Math.abs(back[0]), Math.abs(back[2])) < 1e-6 * Math.abs(back[1]);
-  const right = vertical ? [1, 0, 0] : unit(cross([0, 1, 0], back), [1, 0, 0]);
+  const right = vertical && !sky ? [1, 0, 0] : unit(cross(sky || [0, 1, 0], back), [1, 0, 0]);
   return { right, up: cross(back, right), back };
 }
 

@@ -1,7 +1,7 @@
 // Composes the picture of a frame.
 
 import { camera as cameraLines, Lines, thing, trail } from "./lines.js";
-import { encoded, isThere, length, short, sub, unit } from "./math.js";
+import { axes, encoded, isThere, length, short, sub } from "./math.js";
 import { PARTICLE } from "./run.js";
 import { drawn, element, open, panel, player, plots, texts, viewpoint } from "./parts.js";
 
@@ -29,7 +29,7 @@ export function sceneCamera(run, position) {
 function betweenCameras(a, b, part) {
   const mixed = (p, q) => p + part * (q - p);
   const point = (p, q) => p.map((number, i) => mixed(number, q[i]));
-  return { ...a, location: point(a.location, b.location), look_at: point(a.look_at, b.look_at), angle: a.angle && mixed(a.angle, b.angle) };
+  return { ...a, location: point(a.location, b.location), look_at: point(a.look_at, b.look_at), up: a.up && b.up && point(a.up, b.up), angle: a.angle && mixed(a.angle, b.angle) };
 }
 
 /** Returns the distance from a viewpoint to the nearest body or the ground, m. */
@@ -152,9 +152,7 @@ function mark(lines, view, [x, y, z], pieces) {
 
 function outlineCamera(lines, camera, [w, h]) {
   const away = sub(camera.location, camera.look_at);
-  const back = unit(away, [0, 0, 1]);
-  const right = unit([back[2], 0, -back[0]], [1, 0, 0]);
-  const up = [back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2], back[0] * right[1] - back[1] * right[0]];
+  const { right, up, back } = axes(camera.location, camera.look_at, camera.up);
   const tangentX = Math.tan((Math.min(camera.angle, 170) * Math.PI) / 360);
   const depth = 0.25 * length(away);
   cameraLines(lines, { location: camera.location, right, up, back, tangentX, tangentY: (tangentX * h) / w, depth }, 0.002 * depth);

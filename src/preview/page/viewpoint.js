@@ -61,7 +61,7 @@ export class Viewpoint {
     const rectangle = this.own ? [0, 0, width, height] : [(width - w * scale) / 2, (height - h * scale) / 2, w * scale, h * scale];
     const location = this.own ? this.location : camera.location;
     const aim = this.own ? this.aim : camera.look_at;
-    const { right, up, back } = axes(location, aim);
+    const { right, up, back } = axes(location, aim, this.own ? undefined : camera.up);
     const eye = times(sub(location, center), 1 / size);
     const distance = Math.max(1e-6, length(sub(location, aim)) / size);
     // The size of the whole picture relative to that of the film's rectangle.

@@ -48,22 +48,27 @@ fn camera(tables: &[Keys<'_>], known: Known<'_, '_>, context: &mut Context<'_>) 
     let vector = |key: &Key<Option<DVec3>>| tables.iter().find_map(|keys| keys.get(key));
     // Take the first table in which the user wrote the key. Otherwise, a default value of the view would hide the main camera's value.
     let of = |key: &KeySpec| tables.iter().find(|keys| keys.has(key)).unwrap_or(&tables[0]);
-    for key in [&camera::LOCATION.spec, &camera::LOOK_AT.spec, &camera::ANGLE.spec] {
+    for key in [&camera::LOCATION.spec, &camera::LOOK_AT.spec, &camera::ANGLE.spec, &camera::ROLL.spec] {
         motion::finite(tables[0].node(key), simulation, context);
     }
     let [location, look_at] =
         [&camera::LOCATION, &camera::LOOK_AT].map(|key| point(key, tables, known, context));
-    let before = context.diagnostics.len();
-    let angle = known.number("camera", of(&camera::ANGLE.spec).get(&camera::ANGLE), context);
-    if !tables[0].has(&camera::ANGLE) {
-        context.diagnostics.truncate(before);
-    }
+    let [angle, roll] = [&camera::ANGLE, &camera::ROLL].map(|key| {
+        let before = context.diagnostics.len();
+        let number = known.number("camera", of(&key.spec).get(key), context);
+        if !tables[0].has(key) {
+            context.diagnostics.truncate(before);
+        }
+        number
+    });
+    let up = tables.iter().find_map(|keys| keys.get(&camera::UP));
     // A view with its own location does not move with the main camera.
     let movers = if tables[0].has(&camera::LOCATION) { &tables[..1] } else { tables };
     let mut moving = CameraMotion {
         location: location.clone().filter(VaryingPoint::changes),
         look_at: look_at.clone().filter(VaryingPoint::changes),
         angle: Some(angle.clone()).filter(Varying::changes),
+        roll: Some(roll.clone()).filter(Varying::changes),
         follow: movers.iter().find_map(|keys| follow(keys, context)),
         orbit: movers
             .iter()
@@ -94,6 +99,8 @@ fn camera(tables: &[Keys<'_>], known: Known<'_, '_>, context: &mut Context<'_>) 
     let camera = Camera {
         location,
         look_at,
+        up,
+        roll: roll.at(0.0, |_| 0.0),
         motion: moving,
         projection: if orthographic {
             Projection::Orthographic { width: number(&camera::WIDTH) }
@@ -117,6 +124,13 @@ fn camera(tables: &[Keys<'_>], known: Known<'_, '_>, context: &mut Context<'_>) 
             let span = |key| tables.iter().find_map(|keys: &Keys<'_>| keys.span(key));
             let spans = span(&camera::LOOK_AT.spec).into_iter().chain(span(&camera::LOCATION.spec));
             context.diagnostics.push(spans.fold(error, |error, span| error.at(span, "the same point")));
+        }
+        let is_along =
+            up.is_some_and(|up| up.cross(look_at - location).length() <= 1e-6 * location.distance(look_at));
+        if let Some(span) = tables[0].span(&camera::UP).filter(|_| is_along && !near) {
+            let error = Diagnostic::error(Code::CameraAtLookAt, "the camera looks along its `up`");
+            let help = "give a direction across the line of sight, such as that of the picture's upper edge";
+            context.diagnostics.push(error.at(span, "needs another direction").help(help));
         }
     }
     camera

@@ -2,7 +2,7 @@
 
 use super::Kind::{Choice, Integer, List, Number, Reference, Table, Varying};
 use super::key::table;
-use super::kind::{NON_NEGATIVE, POSITIVE, VARYING_POINT, VECTOR};
+use super::kind::{AXIS, NON_NEGATIVE, POSITIVE, VARYING_POINT, VECTOR};
 use super::motion::BETWEEN_KEYFRAMES;
 use super::{Bound, Collection, KeySpec, Rule};
 
@@ -28,6 +28,18 @@ table! {
     .unit("m")
     .default("the center of the motion")
     .also(&["target", "lookat", "to"]),
+    UP: Option<value::Axis> = KeySpec::new("up", AXIS, "The direction that points up in the picture; also the axis of `orbit`")
+        .default("the vertical, `[0, 1, 0]`")
+        .also(&["sky", "up_vector"]),
+    ROLL: value::Varying = KeySpec::new(
+        "roll",
+        Varying(Bound::Any),
+        "The angle by which the camera is turned about its line of sight, clockwise as seen from behind it; a number, or a formula of `t` and \
+         of measures",
+    )
+    .unit("degrees")
+    .default_number(0.0)
+    .also(&["tilt", "bank"]),
     KEYFRAMES: Any = KeySpec::new(
         "keyframes",
         Table(&keyframes::TABLE),

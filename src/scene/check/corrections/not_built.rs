@@ -169,8 +169,8 @@ static NOT_BUILT: &[NotBuilt] = &[
     },
     NotBuilt {
         of: "the camera",
-        words: &["up", "roll", "sky", "right"],
-        help: "the camera stays upright; leave the line out",
+        words: &["right", "direction"],
+        help: "`location`, `look_at`, `up` and `roll` place the camera; leave the line out",
         comes_with: "",
         is_removable: true,
     },
