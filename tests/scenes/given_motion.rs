@@ -56,6 +56,65 @@ fn a_body_goes_where_its_formulas_say_and_its_velocities_follow() {
     }
 }
 
+/// A slider-crank: the rod's end follows the crank, and the lamp of the rod follows both. Positions, velocities and accelerations are those of
+/// the closed forms.
+#[test]
+fn a_motion_by_formulas_follows_another_one() {
+    let frames = frames(
+        "
+        variables.l = 3
+        [simulation]
+        duration = 1
+        gravity = [0, 0, 0]
+        [body.lamp]
+        shape.sphere.radius = 0.1
+        motion.formula.location = ['(crank.x + slider.x)/2', 1, 't*slider.y']
+        [body.slider]
+        shape.sphere.radius = 0.1
+        location = ['9', '4/2', 0]
+        motion.formula.location = ['crank.x + sqrt(l^2 - crank.y^2)', 2, 0]
+        [body.crank]
+        shape.sphere.radius = 0.1
+        motion.formula.location = ['cos(2*t)', 'sin(2*t)', 0]
+        ",
+    );
+    for frame in frames {
+        let (sin, cos) = libm::sincos(2.0 * frame.time);
+        let root = (9.0 - sin * sin).sqrt();
+        let x = cos + root;
+        let speed = -2.0 * sin - 2.0 * sin * cos / root;
+        let [lamp, slider, _] = frame.bodies[..] else { panic!() };
+        assert!((slider.location.x - x).abs() < 1e-14 && (slider.velocity.x - speed).abs() < 1e-13);
+        let expected = DVec3::new(0.5 * (x + cos), 1.0, 2.0 * frame.time);
+        assert!(lamp.location.abs_diff_eq(expected, 1e-14), "{} {expected}", lamp.location);
+        let expected = DVec3::new(0.5 * (speed - 2.0 * sin), 0.0, 2.0);
+        assert!(lamp.velocity.abs_diff_eq(expected, 1e-13), "{} {expected}", lamp.velocity);
+    }
+}
+
+#[test]
+fn motions_that_follow_each_other_are_named() {
+    let body = |name: &str, x: &str| {
+        format!("[body.{name}]\nshape.sphere.radius = 1\nmotion.formula.location = ['{x}', 0, 0]\n")
+    };
+    let report = |text: &str| Scene::parse(text).unwrap_err().to_string();
+    let said = report(&(body("a", "t + b.x") + &body("b", "c.x/2") + &body("c", "1 - a.x")));
+    assert_eq!(said.matches("error").count(), 3 + 1, "{said}");
+    assert!(said.contains("the motions of `b` and `c` and `a` follow each other"), "{said}");
+    assert!(report(&body("a", "a.x + t")).contains("the motion of `a` follows itself"));
+    // Each formula names the one before twice.
+    let mut text = body("a0", "sin(t)");
+    for number in 1..20 {
+        text += &body(&format!("a{number}"), &format!("a{0}.x*a{0}.x", number - 1));
+    }
+    assert!(report(&text).contains("this formula has over 10000 bytes"));
+    // What is random or moved by forces cannot be followed.
+    for other in ["motion.formula.location = ['t*uniform(0, 1)', 0, 0]", "velocity = [1, 0, 0]"] {
+        let text = format!("{}[body.b]\nshape.sphere.radius = 1\n{other}", body("a", "b.x"));
+        assert!(report(&text).contains("a formula cannot ask where a body is"), "{other}");
+    }
+}
+
 #[test]
 fn keyframes_are_reached_and_what_they_leave_out_stays() {
     let frames = frames(

@@ -12,8 +12,6 @@ use crate::scene::units;
 pub(super) struct OfBody {
     text: String,
     span: Span,
-    /// True if the formula may depend on the time `t`.
-    is_timed: bool,
 }
 
 impl Expander<'_> {
@@ -110,27 +108,25 @@ impl Expander<'_> {
 
     /// Returns true if a formula uses the location of a body, which is an error. Stores the formula; the error is reported after all bodies
     /// are expanded, because the suggested correction contains the locations of bodies.
-    pub(super) fn asks_for_body(&mut self, text: &str, span: Span, is_timed: bool) -> bool {
+    pub(super) fn asks_for_body(&mut self, text: &str, span: Span) -> bool {
         let asks = text.contains('.') && members(text).next().is_some();
         if asks && self.reported.insert(span) {
-            self.of_bodies.push(OfBody { text: text.to_owned(), span, is_timed });
+            self.of_bodies.push(OfBody { text: text.to_owned(), span });
         }
         asks
     }
 
-    /// Reports all formulas that use locations of bodies. Suggests replacing each reference by the initial coordinate or by the formula of
-    /// the body's motion.
+    /// Reports all formulas that use locations of bodies. Suggests replacing each reference by the initial coordinate.
     pub(super) fn report_of_bodies(&mut self, root: &Table) {
         let bodies = root.get("body").and_then(|entry| entry.node.as_table());
-        for OfBody { text, span, is_timed } in std::mem::take(&mut self.of_bodies) {
+        for OfBody { text, span } in std::mem::take(&mut self.of_bodies) {
             let mut corrected = text.clone();
-            let (mut all_known, mut moves) = (true, false);
+            let mut all_known = true;
             for (range, name, member) in members(&text).collect::<Vec<_>>().into_iter().rev() {
                 let body = bodies.and_then(|bodies| bodies.get(name)).and_then(|entry| entry.node.table());
                 let place = body.and_then(|body| coordinate(&body, member));
-                match place.filter(|(_, is_formula)| is_timed || !is_formula) {
-                    Some((place, is_formula)) => {
-                        moves |= !is_formula;
+                match place {
+                    Some(place) => {
                         let alone = range == (0..text.len());
                         corrected.replace_range(range, &if alone { place } else { format!("({place})") });
                     }
@@ -146,11 +142,7 @@ impl Expander<'_> {
                 self.diagnostics.push(error.at(place, ""));
                 continue;
             }
-            let label = if moves {
-                format!("where `{name}` is at the start can be written as a number")
-            } else {
-                format!("the formula by which `{name}` moves can be written here")
-            };
+            let label = format!("where `{name}` is at the start can be written as a number");
             let corrected =
                 if corrected.parse::<f64>().is_ok() { corrected } else { format!("\"{corrected}\"") };
             let mut error = error.at(place, label);
@@ -168,8 +160,8 @@ pub(super) fn without_decimal_comma(text: &str) -> Option<String> {
         .then(|| format!("{whole}.{part}"))
 }
 
-/// Returns a body's coordinate as the text of a formula, and true if that text depends on the time. `member` is the axis: `x`, `y` or `z`.
-fn coordinate(body: &Table, member: &str) -> Option<(String, bool)> {
+/// Returns a body's constant coordinate as the text of a number. `None` if it depends on the time. `member` is the axis: `x`, `y` or `z`.
+fn coordinate(body: &Table, member: &str) -> Option<String> {
     let axis = ["x", "y", "z"].iter().position(|axis| *axis == member)?;
     let inner = |table: &Table, key: &str| table.get(key).and_then(|entry| entry.node.as_table()).cloned();
     let motion = inner(body, "motion");
@@ -181,12 +173,9 @@ fn coordinate(body: &Table, member: &str) -> Option<(String, bool)> {
         }
     };
     let Some(Node { value: Value::Array(items), .. }) = location else {
-        return Some(("0".to_owned(), false));
+        return Some("0".to_owned());
     };
-    match &items.get(axis)?.value {
-        Value::Formula(formula) => Some((formula.text().to_owned(), true)),
-        _ => Some((units::written(items.get(axis)?.as_number()?), false)),
-    }
+    Some(units::written(items.get(axis)?.as_number()?))
 }
 
 /// Finds the references to a property of a body in a formula, such as `ball.x`. Each item is the byte range, the body's name and the

@@ -16,7 +16,7 @@ impl Expander<'_> {
         let Value::String(text) = &node.value else { return };
         if self.has_reported_error(node.span)
             || self.has_unit(text, node.span)
-            || self.asks_for_body(text, node.span, false)
+            || self.asks_for_body(text, node.span)
         {
             node.value = Value::Invalid;
             return;
@@ -37,9 +37,13 @@ impl Expander<'_> {
     /// Replaces a formula by its value, as [`Expander::number`] does, but keeps a formula that depends on the time as a compiled program.
     pub(super) fn timed(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
+        if let Some(followed) = self.following(text, node.span) {
+            node.value = if followed.is_empty() { Value::Invalid } else { Value::String(followed.into()) };
+        }
+        let Value::String(text) = &node.value else { return };
         if self.has_reported_error(node.span)
             || self.has_unit(text, node.span)
-            || self.asks_for_body(text, node.span, true)
+            || self.asks_for_body(text, node.span)
         {
             node.value = Value::Invalid;
             return;
@@ -94,7 +98,7 @@ impl Expander<'_> {
         let Value::String(text) = &node.value else { return };
         let (text, span) = (text.clone(), node.span);
         node.value = Value::Invalid;
-        if self.has_unit(&text, span) || self.asks_for_body(&text, span, true) {
+        if self.has_unit(&text, span) || self.asks_for_body(&text, span) {
             return;
         }
         let Some(formula) = self.parsed(&text, span) else { return };

@@ -9,6 +9,7 @@ mod evaluate;
 mod formula;
 mod geometry;
 mod groups;
+mod guided;
 mod include;
 mod index;
 mod links;
@@ -27,6 +28,7 @@ use std::sync::Arc;
 
 pub(super) use self::geometry::{Geometer, Geometry};
 pub(super) use self::groups::Groups;
+use self::guided::GuidedBodies;
 pub(super) use self::include::include;
 pub(crate) use self::place::in_string;
 use self::settled::{has_work, is_list, is_settled};
@@ -62,6 +64,7 @@ pub(super) fn expand(
         variable_spans: HashMap::new(),
         reported: HashSet::new(),
         unit: "",
+        guided: GuidedBodies::of(root),
         of_bodies: Vec::new(),
         warned: HashSet::new(),
         diagnostics,
@@ -136,6 +139,8 @@ struct Expander<'a> {
     unit: &'static str,
     /// The source spans of formulas that have been warned about because of the unit of an angle.
     warned: HashSet<Span>,
+    /// The bodies that move by formulas of the time, which other such formulas can follow.
+    guided: GuidedBodies,
     /// The formulas that use the locations of bodies. Their errors are reported at the end of the expansion.
     of_bodies: Vec<corrections::OfBody>,
     diagnostics: &'a mut Vec<Diagnostic>,

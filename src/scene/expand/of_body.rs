@@ -15,10 +15,7 @@ impl Expander<'_> {
         let Value::String(text) = &node.value else { return };
         let (text, span) = (text.clone(), node.span);
         node.value = Value::Invalid;
-        if self.has_reported_error(span)
-            || self.has_unit(&text, span)
-            || self.asks_for_body(&text, span, true)
-        {
+        if self.has_reported_error(span) || self.has_unit(&text, span) || self.asks_for_body(&text, span) {
             return;
         }
         let Some(formula) = self.parsed(&text, span) else { return };
