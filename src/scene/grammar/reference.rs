@@ -363,7 +363,8 @@ follow = { body = \"lift\", distance = 9 }
 orbit.period = 20
 ```
 
-Formulas of a `motion`, of the camera and of lights know the time `t`, s. Velocities are derived from the motion. A body with a motion acts on
+Formulas of a `motion`, of the camera and of lights know the time `t`, s. A motion can follow another body that moves by formulas: `crank.x + 1`.
+Velocities are derived from the motion. A body with a motion acts on
 others, for example by springs, and the work of its drive is booked. Its own kinetic energy and momentum are not counted.
 
 A `motion.trajectory` is a CSV file with a row for each time and body. Its columns are `t` (or `time`), `body`, `x`, `y`, `z`, and optionally
