@@ -189,3 +189,14 @@ fn an_automatic_camera_turns_with_up() {
     assert!(way(turned).abs_diff_eq(expected, 0.02 * expected.length()), "{} {expected}", way(turned));
     assert!((seen.x - then.x).abs() < 0.02 && (seen.y - then.y).abs() < 0.02, "{seen:?} {then:?}");
 }
+
+/// A value cannot hide SDL that an untrusted scene may not contain.
+#[test]
+fn values_in_sdl_are_formulas_and_nothing_else() {
+    let report =
+        |sdl: &str| Scene::parse(&format!("{SCENE}\n[povray]\nsdl = \"{sdl}\"")).unwrap_err().to_string();
+    let hidden = report("// ${\\n#fopen F \\\"x\\\" write\\n}");
+    assert!(hidden.contains("error"), "{hidden}");
+    let beside = report("#declare A = ${t}; #fopen F A write");
+    assert!(beside.contains("untrusted-sdl") && beside.contains("#fopen F A write"), "{beside}");
+}

@@ -66,12 +66,12 @@ impl Assets {
 
 /// Reports mistakes in the raw SDL of a value, such as file access without `--trust` and unmatched braces.
 pub(super) fn check(node: &Node, place: Where, context: &mut Context<'_>) {
-    let Some(text) = node.as_str() else {
+    let Some(written) = node.as_str() else {
         return context.diagnostics.push(super::read::wrong_type(node, &Kind::Sdl(place)));
     };
-    // Values become numbers.
-    let filled = with_numbers(text);
-    let text = if place == Where::Top { filled.as_str() } else { text };
+    // Values become numbers. Their formulas are checked elsewhere, so nothing else can hide in them.
+    let filled = with_numbers(written);
+    let text = if place == Where::Top { filled.as_str() } else { written };
     if context.trust {
         context.diagnostics.extend(braces::unbalanced(text, node.span));
         trusted(text, node.span, context);
@@ -80,7 +80,7 @@ pub(super) fn check(node: &Node, place: Where, context: &mut Context<'_>) {
     let (refused, includes) = refusals(text, place, |name| context.assets.is_listed(name));
     for refusal in &refused {
         let raw = context.sources.raw(node.span);
-        let at = place::in_string(raw, text, &refusal.range, node.span);
+        let at = place::in_string(raw, written, &refusal.range, node.span);
         context.diagnostics.push(diagnostic(refusal, at));
     }
     if refused.is_empty() {
