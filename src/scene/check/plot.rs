@@ -213,6 +213,10 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
 
     /// Reports a plot that draws nothing, and the keys that have no meaning for what it draws.
     fn check_keys(&mut self, (name, span): (&str, Span), view: &View<'_>) {
+        if view.to_table().is_none() {
+            // A key without a plot of its own has been reported.
+            return;
+        }
         let (has_bars, has_histogram) = (view.has(&plot::BARS), view.has(&plot::HISTOGRAM));
         if !view.has(&plot::Y) && !has_bars && !has_histogram && !view.has_unknown() {
             let message = "a plot needs one of `y`, `bars`, `histogram`".to_owned();

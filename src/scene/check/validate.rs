@@ -280,6 +280,8 @@ fn named(node: &Node, spec: &'static TableSpec, sort: Option<&Entry>, context: &
         context.diagnostics.push(corrections::correct_array(error, node, word, context));
         return;
     };
+    // Keys of one table without a name need one name.
+    let mut is_unnamed_said = false;
     for entry in &tables.entries {
         let original = match word {
             "body" => context.groups.original(&entry.name.text),
@@ -301,7 +303,9 @@ fn named(node: &Node, spec: &'static TableSpec, sort: Option<&Entry>, context: &
                 context.once(before, &entry.name.text, entry.name.span);
             }
             None if matches!(entry.node.value, Value::Invalid) => {}
+            _ if is_unnamed_said && spec.key(&entry.name.text).is_some() => {}
             _ => {
+                is_unnamed_said |= spec.key(&entry.name.text).is_some();
                 let name = &entry.name.text;
                 let message = format!("`{name}` stands in [{word}], where only tables with names do");
                 let help = format!("name a {word} with `[{word}.NAME]`, and write `{name}` below it");
