@@ -29,7 +29,8 @@ pub enum SurfacePattern {
     /// Cubes with an edge of 0.5 in alternating colors. The center of the body is a corner of eight cubes. The cube from 0 to 0.5 along
     /// all axes has the second color.
     Checkered,
-    /// Bands of height 0.22 around y in alternating colors. The middle band, from -0.11 to 0.11, has the second color.
+    /// Bands of height 0.22 around y in alternating colors. The middle band, from -0.11 to 0.11, has the second
+    /// color where x is negative. Where x is positive, the colors change places.
     Striped,
     /// Six sectors around y in the colors [`BEACH_BALL`]. The poles, |y| ≥ 0.911, have the second color. [`Appearance::color`] is the mean
     /// of the sectors.
