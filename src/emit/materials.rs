@@ -1,10 +1,11 @@
 //! Turns the materials of a scene into text and values for scripts.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use serde::Serialize;
 
 use super::sdl::Style;
 use super::text::Identifiers;
+use crate::physics::Shape;
 use crate::picture;
 use crate::scene::{Body, Color, Look, LookNumber, Material, Pattern, Scene};
 use sha2::{Digest, Sha256};
@@ -20,6 +21,8 @@ enum Kind {
     Sdl,
 }
 
+/// The family of materials with fibers.
+const WOODS: &str = "woods";
 /// The identifier of the color of the next bodies in scripts, for materials whose color follows a value.
 pub(super) const SHADE_IDENTIFIER: &str = "Shade";
 /// The identifier of the transparency of the next bodies in scripts, for materials whose transparency follows a value.
@@ -198,7 +201,7 @@ impl MaterialText {
     /// Returns the SDL text that gives a body this material.
     ///
     /// A pattern is designed for a ball of radius 1. On a body, it is scaled as for a ball of the same volume. So a crate and a matchbox
-    /// have equally many rings of wood.
+    /// have equally many rings of wood. The fibers of wood run along the longest axis of the body.
     pub(super) fn usage_in(&self, body: &Body, style: Style) -> String {
         let (Pattern::Centred | Pattern::Cut, Some(radius)) = (self.pattern, body.drawn().radius_of_ball())
         else {
@@ -209,10 +212,27 @@ impl MaterialText {
             place.push_str(" translate ");
             Style { unit: 1.0, ..style }.vector(&mut place, of_name(&body.name));
         }
+        if self.family == Some(WOODS) {
+            place.push_str(along_longest_axis(&body.shape));
+        }
         place.push_str(" scale ");
         style.length(&mut place, radius);
         let no_shadow = if self.glows { " no_shadow" } else { "" };
         format!("material {{ {}{place} }}{no_shadow}", self.inside())
+    }
+}
+
+/// Returns the rotation that turns x to the longest axis of a shape. It is empty if no axis is clearly longer than x.
+fn along_longest_axis(shape: &Shape) -> &'static str {
+    let length = |axis: DVec3| {
+        let reach = |direction| shape.support(DQuat::IDENTITY, direction).unwrap_or(0.0);
+        reach(axis) + reach(-axis)
+    };
+    let [x, y, z] = DVec3::AXES.map(length);
+    match x * 1.01 {
+        x if y > x && y >= z => " rotate z*90",
+        x if z > x => " rotate y*90",
+        _ => "",
     }
 }
 
@@ -251,6 +271,20 @@ mod tests {
         let scene = Scene::parse(text).unwrap();
         let usage = texts(&scene)[0].usage_in(&scene.bodies[0], Style { unit: 1.0, digits: 4 });
         assert!(usage.ends_with("scale 200 }"), "{usage}");
+    }
+
+    #[test]
+    fn fibers_run_along_the_longest_axis() {
+        let along = |shape: &str| {
+            let text = format!("[body.beam]\nshape.{shape}\nmaterial = 'wood'");
+            along_longest_axis(&Scene::parse(&text).unwrap().bodies[0].shape)
+        };
+        assert_eq!(along("box.size = [3, 1, 1]"), "");
+        assert_eq!(along("box.size = [1, 3, 2]"), " rotate z*90");
+        assert_eq!(along("box.size = [1, 2, 3]"), " rotate y*90");
+        assert_eq!(along("cylinder = { radius = 0.1, height = 2 }"), " rotate z*90");
+        assert_eq!(along("cylinder = { radius = 2, height = 0.1 }"), "");
+        assert_eq!(along("sphere.radius = 1"), "");
     }
 
     #[test]

@@ -96,19 +96,26 @@ fn usual(preset: Preset) -> &'static [DefaultLight] {
             shadows: false,
         },
     ];
-    const WARM: [DefaultLight; 2] = [
+    const WARM: [DefaultLight; 3] = [
         DefaultLight {
             name: "lamp",
             location: [-13.0, 22.0, 16.0],
-            size: Some(1.2),
+            size: Some(3.6),
             color: Srgb([1.1, 1.067, 1.012]),
             shadows: true,
         },
         DefaultLight {
             name: "fill",
-            location: [14.0, -5.0, 22.0],
+            location: [7.0, -2.5, 7.0],
             size: None,
-            color: Srgb([0.34, 0.37, 0.42]),
+            color: Srgb([0.5, 0.52, 0.56]),
+            shadows: false,
+        },
+        DefaultLight {
+            name: "rim",
+            location: [9.0, -1.5, -9.0],
+            size: None,
+            color: Srgb([0.48, 0.52, 0.58]),
             shadows: false,
         },
     ];

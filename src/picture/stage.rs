@@ -115,6 +115,8 @@ fn size(bounds: Bounds) -> f64 {
     two_digits_up(framing::rounded_outward(bounds).diagonal())
 }
 
+/// The distance over which tiles fade, relative to the size of the visible scene. Farther tiles are too flat to be drawn without moiré.
+const TILES_FADE: f64 = 3.5;
 /// The width of a clearly visible line, relative to the width of the picture: four pixels of 1280.
 const STROKE: f64 = 0.0031;
 /// The smallest width of a clearly visible line, pixels.
@@ -131,14 +133,14 @@ impl Stage {
             height: scenery.ground,
             tile: scenery.tile,
             // Given tiles may be larger than the whole motion.
-            tiles_fade: (4.5 * far).max(38.0 * scenery.tile),
+            tiles_fade: (TILES_FADE * far).max(38.0 * scenery.tile),
         });
         Stage {
             size,
             center,
             ground,
             tile: scenery.usual_tile,
-            tiles_fade: 4.5 * far,
+            tiles_fade: TILES_FADE * far,
             // A distant camera sees more of the ground.
             fade: 11.0 * far.max(distance / 2.0),
             preset: scene.environment.preset,

@@ -52,4 +52,18 @@ mod tests {
             }
         }
     }
+
+    /// The skies are defined twice: in the templates and in the page.
+    #[test]
+    fn the_skies_are_those_of_the_templates() {
+        let environment = include_str!("../../templates/environment.inc");
+        let page = include_str!("page/surroundings.js");
+        let skies = page.split_once("const DAYLIGHT").unwrap().1.split_once("const even").unwrap().0;
+        let stops: Vec<&str> = skies.split('[').filter_map(|stop| Some(stop.split_once(']')?.0)).collect();
+        assert_eq!(stops.len(), 7 + 7 + 4);
+        for (height, color) in stops.into_iter().filter_map(|stop| stop.split_once(", ")) {
+            let stop = format!("[{height} color srgb <{color}>]");
+            assert!(environment.contains(&stop), "{stop}");
+        }
+    }
 }

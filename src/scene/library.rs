@@ -192,7 +192,7 @@ pub const MATERIALS: &[LibraryMaterial] = &[
         .seen(0.85, 0.0, 0.15),
     opaque("jade", "stones", Pattern::Cut, 0x3f_8f_66, "Green and polished, with clouds")
         .seen(0.95, 0.0, 0.2),
-    opaque("wood", "woods", Pattern::Cut, 0xc0_8a_52, "Oak: rings and fibers along x, oiled")
+    opaque("wood", "woods", Pattern::Cut, 0xc0_8a_52, "Oak: rings, and fibers along the longest axis, oiled")
         .seen(0.87, 0.0, 0.5),
     opaque("dark_wood", "woods", Pattern::Cut, 0x74_44_28, "Walnut, polished").seen(0.85, 0.0, 0.25),
     opaque(
@@ -203,8 +203,14 @@ pub const MATERIALS: &[LibraryMaterial] = &[
         "White and colored cubes: shows how a body turns",
     )
     .seen(1.0, 0.0, 0.3),
-    opaque("striped", "toys", Pattern::Centred, 0x1f_6f_b8, "White and colored bands around the axis")
-        .seen(1.0, 0.0, 0.3),
+    opaque(
+        "striped",
+        "toys",
+        Pattern::Centred,
+        0x1f_6f_b8,
+        "White and colored bands around the axis, shifted on one half",
+    )
+    .seen(1.0, 0.0, 0.3),
     painted("beach_ball", "toys", "Six colors between two white poles").seen(1.0, 0.0, 0.3),
     opaque("moon", "planets", Pattern::Cut, 0xb9_b5_ad, "Gray, with dark seas and craters")
         .seen(0.85, 0.0, 1.0),

@@ -29,7 +29,8 @@ pub enum SurfacePattern {
     /// Cubes with an edge of 0.5 in alternating colors. The center of the body is a corner of eight cubes. The cube from 0 to 0.5 along
     /// all axes has the second color.
     Checkered,
-    /// Bands of height 0.22 around y in alternating colors. The middle band, from -0.11 to 0.11, has the second color.
+    /// Bands of height 0.22 around y in alternating colors. The middle band, from -0.11 to 0.11, has the second
+    /// color where x is negative. Where x is positive, the colors change places.
     Striped,
     /// Six sectors around y in the colors [`BEACH_BALL`]. The poles, |y| ≥ 0.911, have the second color. [`Appearance::color`] is the mean
     /// of the sectors.
@@ -184,7 +185,7 @@ pub fn ground(preset: Preset) -> Appearance {
 /// The colors of the light and the dark tiles of the ground. They equal those in `templates/common.inc`.
 fn tiles(preset: Preset) -> [Color; 2] {
     let [light, dark] = match preset {
-        Preset::Daylight => [[0.83, 0.8, 0.755], [0.69, 0.672, 0.645]],
+        Preset::Daylight => [[0.835, 0.82, 0.8], [0.785, 0.772, 0.755]],
         Preset::Studio => [[0.88; 3], [0.86; 3]],
         Preset::Night => [[0.5, 0.52, 0.56], [0.38, 0.4, 0.44]],
         Preset::Blackboard => [[0.22, 0.26, 0.27], [0.16, 0.195, 0.205]],

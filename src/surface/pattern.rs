@@ -76,7 +76,9 @@ impl SurfacePattern {
             SurfacePattern::Checkered => {
                 [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| counts(axis, 0.0, CUBE)).to_vec()
             }
-            SurfacePattern::Striped => vec![counts(DVec3::Y, BAND / 2.0, BAND)],
+            SurfacePattern::Striped => {
+                vec![counts(DVec3::Y, BAND / 2.0, BAND), (DVec3::X, 0.0, 1.0, 1.0)]
+            }
             SurfacePattern::Ground => [DVec3::X, DVec3::Z].map(|axis| counts(axis, 0.0, 1.0)).to_vec(),
             SurfacePattern::BeachBall => {
                 let side = |i: u8| {
@@ -103,7 +105,10 @@ impl SurfacePattern {
         match self {
             SurfacePattern::None => 0,
             SurfacePattern::Checkered => second_where((at / CUBE).floor().element_sum()),
-            SurfacePattern::Striped => second_where((at.y / BAND + 0.5).floor()),
+            SurfacePattern::Striped => {
+                let shift = if at.x > 0.0 { 1.0 } else { 0.0 };
+                second_where((at.y / BAND + 0.5).floor() + shift)
+            }
             SurfacePattern::Ground => second_where(at.x.floor() + at.z.floor()),
             SurfacePattern::BeachBall if at.y.abs() > POLE => 6,
             SurfacePattern::BeachBall => {
@@ -226,10 +231,12 @@ mod tests {
     /// On a ball, the area of a zone is proportional to its height (Archimedes), so the areas of all bands follow from their heights.
     #[test]
     fn bands_have_the_heights_that_the_scripts_give_them() {
+        let color = |x: f64, y: f64| SurfacePattern::Striped.color_at(DVec3::new(x, y, 0.0));
+        assert_eq!([-0.1, -0.12, 0.1, 0.12, 0.32, 0.34].map(|y| color(-0.5, y)), [1, 0, 1, 0, 0, 1]);
+        assert_eq!([-0.1, -0.12, 0.1, 0.12, 0.32, 0.34].map(|y| color(0.5, y)), [0, 1, 0, 1, 1, 0]);
+        // The halves complete each other.
         let (whole, parts) = parts(&BaseShape::BALL, SurfacePattern::Striped);
-        // The second color covers five bands of full height: one at the equator, and two on each side from 0.33 to 0.55 and from 0.77 to
-        // 0.99.
-        assert!((parts[1] / whole - 5.0 * 0.22 / 2.0).abs() < 2e-3, "{}", parts[1] / whole);
+        assert!((parts[1] / whole - 0.5).abs() < 2e-3, "{}", parts[1] / whole);
     }
 
     #[test]

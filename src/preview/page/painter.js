@@ -281,7 +281,7 @@ export class Painter {
       if (Number.isNaN(x)) continue;
       const axis = (v) => turned(turn, turned(piece.turn, v));
       const look = description.materials[description.bodies[piece.body].material] ?? description.tiles;
-      const [tile, tilesFade, fade] = [stage?.tile ?? space.size / 12, stage?.tilesFade ?? 4.5 * space.size, stage?.fog ? stage.fade : 0];
+      const [tile, tilesFade, fade] = [stage?.tile ?? space.size / 12, stage?.tilesFade ?? 3.5 * space.size, stage?.fog ? stage.fade : 0];
       this.drawPlane([x, y, z], axis([1, 0, 0]), axis([0, 0, 1]), look, tile, tilesFade, fade);
     }
   }

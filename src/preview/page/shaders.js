@@ -176,7 +176,7 @@ vec3 painted() {
     int sector = int(mod(floor(atan(-p.z, p.x) / 1.0471976), 6.0));
     return SECTORS[sector];
   }
-  if (v_second.w > 1.5) return mod(floor((p.y + 0.11) / 0.22), 2.0) < 0.5 ? v_second.rgb : v_color.rgb;
+  if (v_second.w > 1.5) return mod(floor((p.y + 0.11) / 0.22) + step(0.0, p.x), 2.0) < 0.5 ? v_second.rgb : v_color.rgb;
   if (v_second.w > 0.5) {
     vec3 cell = floor(p / 0.5);
     return mod(cell.x + cell.y + cell.z, 2.0) < 0.5 ? v_second.rgb : v_color.rgb;

@@ -1,8 +1,8 @@
-// The sky and ambient light of each environment, similar to POV-Ray's templates. A stop of a sky is a height and a color in sRGB.
+// The sky and ambient light of each environment, as in `templates/environment.inc`; a test compares the skies. A stop of a sky is a height and a color in sRGB.
 
 const DAYLIGHT = [
-  [0.5, 0.89, 0.925, 0.95], [0.508, 0.82, 0.89, 0.95], [0.522, 0.68, 0.815, 0.94], [0.55, 0.5, 0.7, 0.905],
-  [0.61, 0.32, 0.55, 0.83], [0.8, 0.18, 0.395, 0.72], [1, 0.11, 0.28, 0.58],
+  [0.5, 0.9, 0.925, 0.945], [0.515, 0.835, 0.89, 0.94], [0.54, 0.715, 0.825, 0.93], [0.58, 0.57, 0.74, 0.905],
+  [0.65, 0.42, 0.63, 0.85], [0.8, 0.25, 0.47, 0.76], [1, 0.14, 0.33, 0.64],
 ];
 const STUDIO = [[0.5, 0.88, 0.88, 0.88], [0.54, 0.86, 0.86, 0.86], [0.72, 0.55, 0.55, 0.56], [0.74, 1, 1, 1], [0.9, 1, 1, 1], [0.92, 0.5, 0.5, 0.51], [1, 0.45, 0.45, 0.46]];
 const NIGHT = [[0.5, 0.1, 0.13, 0.2], [0.53, 0.075, 0.1, 0.17], [0.6, 0.035, 0.05, 0.1], [1, 0.01, 0.015, 0.04]];
