@@ -9,8 +9,8 @@
 
 use std::collections::HashMap;
 
-use super::occupancy::Occupancy;
-use super::text::{Text, Vertical, width};
+use super::occupancy::{Occupancy, Rectangle};
+use super::text::{Text, Vertical};
 
 /// The cost of covering another text or a panel. All costs are in heights of a line: so far a text goes to evade what it would cover.
 const COST_OF_TEXT: f64 = 100.0;
@@ -63,12 +63,19 @@ impl<'a> Movable<'a> {
         Text { x, y, align, ..self.text.clone() }
     }
 
-    /// The distance between two places, in heights of a line.
-    fn distance(&self, one: &Place, other: &Place, aspect: f64) -> f64 {
-        let wide = width(&self.text.says, self.text.height);
-        let middle = |place: &Place| [place.x + (0.5 - place.align) * wide, place.y.above_middle(aspect)];
-        let [from, to] = [middle(one), middle(other)];
-        libm::hypot(to[0] - from[0], to[1] - from[1]) / self.text.height
+    /// Returns a function that gives the area of the text at a place. The width of the text is computed once.
+    fn area(&self, aspect: f64) -> impl Fn(&Place) -> Rectangle + use<> {
+        let (area, y) = (self.text.area(aspect), self.text.y.above_middle(aspect));
+        let wide = area.right - area.left;
+        move |place| {
+            let (left, up) = (place.x - place.align * wide, place.y.above_middle(aspect) - y);
+            Rectangle { left, right: left + wide, bottom: area.bottom + up, top: area.top + up }
+        }
+    }
+
+    /// The distance between two places of the text, given by its areas there, in heights of a line.
+    fn distance(&self, from: Rectangle, to: Rectangle) -> f64 {
+        libm::hypot(to.left - from.left, to.bottom - from.bottom) / self.text.height
     }
 
     /// The mean of places with these indices and weights. `None` without places.
@@ -107,35 +114,33 @@ pub(super) struct Surroundings {
 
 impl Surroundings {
     /// The cost of what a text would cover.
-    fn covered(&self, text: &Text<'_>) -> f64 {
+    fn covered(&self, area: Rectangle) -> f64 {
         let covered =
             [(&self.texts, COST_OF_TEXT), (&self.lines, COST_OF_LINE), (&self.bodies, COST_OF_BODY)];
-        covered.into_iter().filter(|(taken, _)| !taken.has_room_for(text)).map(|(_, cost)| cost).sum()
+        covered.into_iter().filter(|(taken, _)| !taken.is_free(area)).map(|(_, cost)| cost).sum()
     }
 
     /// Chooses the place with the lowest cost, and marks it as taken. `favored` are the indices and weights of the favored places. `None`
     /// without places.
     pub(super) fn settle<'a>(&mut self, movable: &Movable<'a>, favored: &[(usize, f64)]) -> Option<Text<'a>> {
         let aspect = self.texts.aspect();
+        let area = movable.area(aspect);
         let favored = movable.mean(favored, aspect);
         let with_leaving = |place: &Place| {
             let [leaving, farther] = COSTS_OF_LEAVING;
-            let distance = |favored| movable.distance(&favored, place, aspect);
+            let distance = |favored: Place| movable.distance(area(&favored), area(place));
             place.cost + favored.map_or(0.0, |favored| leaving + farther * distance(favored))
         };
         let places = movable.places.iter().map(|place| Place { cost: with_leaving(place), ..*place });
-        let mut best: Option<(Text<'a>, f64)> = None;
-        for place in favored.into_iter().chain(places) {
-            if best.as_ref().is_some_and(|(_, least)| place.cost >= *least) {
-                continue;
-            }
-            let text = movable.at(&place);
-            let cost = place.cost + self.covered(&text);
-            if best.as_ref().is_none_or(|(_, least)| cost < *least) {
-                best = Some((text, cost));
+        let mut best: Option<Place> = None;
+        for mut place in favored.into_iter().chain(places) {
+            let is_better = |place: &Place| best.is_none_or(|best| place.cost < best.cost);
+            if is_better(&place) {
+                place.cost += self.covered(area(&place));
+                best = if is_better(&place) { Some(place) } else { best };
             }
         }
-        let (text, _) = best?;
+        let text = movable.at(&best?);
         self.texts.take_text(&text);
         Some(text)
     }
@@ -208,12 +213,11 @@ fn cheapest<'s, 't: 's>(
             before.push(None);
             continue;
         };
-        let aspect = around.texts.aspect();
         costs.resize(movable.places.len(), 0.0);
+        let areas: Vec<Rectangle> = movable.places.iter().map(movable.area(around.texts.aspect())).collect();
         let change = |from: usize, to: usize| {
             let [change, farther] = COSTS_OF_CHANGE;
-            let [from, to] = [from, to].map(|place| &movable.places[place]);
-            change + farther * movable.distance(from, to, aspect)
+            change + farther * movable.distance(areas[from], areas[to])
         };
         let cheapest = least(&costs);
         let mut next = Vec::with_capacity(costs.len());
@@ -227,7 +231,7 @@ fn cheapest<'s, 't: 's>(
                     best = if cost < best.0 { (cost, from) } else { best };
                 }
             }
-            next.push(best.0 - costs[cheapest] + place.cost + around.covered(&movable.at(place)));
+            next.push(best.0 - costs[cheapest] + place.cost + around.covered(areas[to]));
             leading.push(best.1);
         }
         costs = next;
@@ -256,7 +260,6 @@ fn least(costs: &[f64]) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::super::occupancy::Rectangle;
     use super::*;
     use crate::scene::Color;
 
