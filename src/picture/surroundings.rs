@@ -2,9 +2,15 @@
 //!
 //! A text belongs to what it names, so it stays near it. It never covers another text if it can evade it, and it evades lines and bodies only as
 //! far as that keeps it near. So a field full of lines does not send a name across the picture.
+//!
+//! If each frame chose the best place for itself, texts would jump in a film. So each text has favored places: those with the lowest costs over a
+//! sample of frames, where each change of place costs something, too. Between two such places, it glides. It leaves them only where it would
+//! cover another text, or much else.
 
-use super::occupancy::Occupancy;
-use super::text::Text;
+use std::collections::HashMap;
+
+use super::occupancy::{Occupancy, Rectangle};
+use super::text::{Text, Vertical};
 
 /// The cost of covering another text or a panel. All costs are in heights of a line: so far a text goes to evade what it would cover.
 const COST_OF_TEXT: f64 = 100.0;
@@ -12,6 +18,89 @@ const COST_OF_TEXT: f64 = 100.0;
 const COST_OF_LINE: f64 = 1.2;
 /// The cost of covering a body.
 const COST_OF_BODY: f64 = 1.1;
+/// The cost of leaving the favored place in a single frame, and the additional cost for each height of a line between the two places. A text
+/// that would cover only a line or only a body stays.
+const COSTS_OF_LEAVING: [f64; 2] = [1.5, 0.6];
+/// The cost of another favored place than in the frame before in the sample, and the additional cost for each height of a line between the
+/// two places.
+const COSTS_OF_CHANGE: [f64; 2] = [2.0, 0.5];
+/// The number of frames of the sample before and after a change over which a text glides.
+const GLIDE: f64 = 2.0;
+
+/// A text that has several possible places.
+pub(super) struct Movable<'a> {
+    pub(super) key: Key,
+    /// The text, at any place.
+    pub(super) text: Text<'a>,
+    /// The places, in the same order in all frames. Of places with equal costs, the first one counts.
+    pub(super) places: Vec<Place>,
+}
+
+/// Identifies a text in all frames of a run.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Key {
+    /// A note, by its name and number.
+    Note(String, u8),
+    /// A label beside its body, by its index in the scene.
+    Label(usize),
+    /// A label beside a ghost, by its index in the scene and the bits of the ghost's time.
+    Ghost(usize, u64),
+}
+
+/// A possible place of a text.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) x: f64,
+    pub(super) y: Vertical,
+    pub(super) align: f64,
+    /// The cost of the distance from the usual place, in heights of a line.
+    pub(super) cost: f64,
+}
+
+impl<'a> Movable<'a> {
+    fn at(&self, place: &Place) -> Text<'a> {
+        let Place { x, y, align, .. } = *place;
+        Text { x, y, align, ..self.text.clone() }
+    }
+
+    /// Returns a function that gives the area of the text at a place. The width of the text is computed once.
+    fn area(&self, aspect: f64) -> impl Fn(&Place) -> Rectangle + use<> {
+        let (area, y) = (self.text.area(aspect), self.text.y.above_middle(aspect));
+        let wide = area.right - area.left;
+        move |place| {
+            let (left, up) = (place.x - place.align * wide, place.y.above_middle(aspect) - y);
+            Rectangle { left, right: left + wide, bottom: area.bottom + up, top: area.top + up }
+        }
+    }
+
+    /// The distance between two places of the text, given by its areas there, in heights of a line.
+    fn distance(&self, from: Rectangle, to: Rectangle) -> f64 {
+        libm::hypot(to.left - from.left, to.bottom - from.bottom) / self.text.height
+    }
+
+    /// The mean of places with these indices and weights. `None` without places.
+    fn mean(&self, weighted: &[(usize, f64)], aspect: f64) -> Option<Place> {
+        let (first, _) = *weighted.first()?;
+        if weighted.iter().all(|(place, _)| *place == first) {
+            return self.places.get(first).map(|place| Place { cost: 0.0, ..*place });
+        }
+        let (mut mean, mut y, mut total) =
+            (Place { x: 0.0, y: Vertical::Middle(0.0), align: 0.0, cost: 0.0 }, 0.0, 0.0);
+        for (place, weight) in weighted {
+            let place = self.places.get(*place)?;
+            mean.x += weight * place.x;
+            mean.align += weight * place.align;
+            y += weight * place.y.above_middle(aspect);
+            total += weight;
+        }
+        Some(Place {
+            x: mean.x / total,
+            y: Vertical::Middle(y / total),
+            align: mean.align / total,
+            cost: 0.0,
+        })
+    }
+}
 
 /// What texts near points and bodies evade.
 pub(super) struct Surroundings {
@@ -24,39 +113,172 @@ pub(super) struct Surroundings {
 }
 
 impl Surroundings {
-    /// Chooses the place with the lowest cost, and marks it as taken. Each place comes with the cost of its distance from the usual one, in
-    /// heights of a line. Of equal places, the first counts. `None` without places.
-    pub(super) fn settle<'a>(&mut self, places: impl Iterator<Item = (Text<'a>, f64)>) -> Option<Text<'a>> {
-        let mut best: Option<(Text<'a>, f64)> = None;
-        for (text, distance) in places {
-            if best.as_ref().is_some_and(|(_, cost)| distance >= *cost) {
-                continue;
-            }
-            let covered =
-                [(&self.texts, COST_OF_TEXT), (&self.lines, COST_OF_LINE), (&self.bodies, COST_OF_BODY)];
-            let covered = covered.into_iter().filter(|(taken, _)| !taken.has_room_for(&text));
-            let cost = distance + covered.map(|(_, cost)| cost).sum::<f64>();
-            if best.as_ref().is_none_or(|(_, least)| cost < *least) {
-                best = Some((text, cost));
+    /// The cost of what a text would cover.
+    fn covered(&self, area: Rectangle) -> f64 {
+        let covered =
+            [(&self.texts, COST_OF_TEXT), (&self.lines, COST_OF_LINE), (&self.bodies, COST_OF_BODY)];
+        covered.into_iter().filter(|(taken, _)| !taken.is_free(area)).map(|(_, cost)| cost).sum()
+    }
+
+    /// Chooses the place with the lowest cost, and marks it as taken. `favored` are the indices and weights of the favored places. `None`
+    /// without places.
+    pub(super) fn settle<'a>(&mut self, movable: &Movable<'a>, favored: &[(usize, f64)]) -> Option<Text<'a>> {
+        let aspect = self.texts.aspect();
+        let area = movable.area(aspect);
+        let favored = movable.mean(favored, aspect);
+        let with_leaving = |place: &Place| {
+            let [leaving, farther] = COSTS_OF_LEAVING;
+            let distance = |favored: Place| movable.distance(area(&favored), area(place));
+            place.cost + favored.map_or(0.0, |favored| leaving + farther * distance(favored))
+        };
+        let places = movable.places.iter().map(|place| Place { cost: with_leaving(place), ..*place });
+        let mut best: Option<Place> = None;
+        for mut place in favored.into_iter().chain(places) {
+            let is_better = |place: &Place| best.is_none_or(|best| place.cost < best.cost);
+            if is_better(&place) {
+                place.cost += self.covered(area(&place));
+                best = if is_better(&place) { Some(place) } else { best };
             }
         }
-        let (text, _) = best?;
+        let text = movable.at(&best?);
         self.texts.take_text(&text);
         Some(text)
     }
 }
 
+/// A frame of a sample: its time, s, what its texts evade, and the texts with their possible places.
+pub(super) type Sample<'a> = (f64, Surroundings, Vec<Movable<'a>>);
+
+/// The favored places of all texts of a run.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Favored {
+    /// The times of the frames in the sample, s, in order.
+    times: Vec<f64>,
+    /// For each text, the index of its favored place in each frame of the sample. `None` where the text is absent.
+    places: HashMap<Key, Vec<Option<usize>>>,
+}
+
+impl Favored {
+    /// Chooses the favored places of texts that a sample of frames shows. A text that comes later in a frame evades those before it.
+    pub(super) fn new(samples: Vec<Sample<'_>>) -> Favored {
+        let mut favored =
+            Favored { times: samples.iter().map(|(time, ..)| *time).collect(), ..Favored::default() };
+        let mut keys = Vec::new();
+        let mut samples: Vec<(Surroundings, HashMap<Key, Movable<'_>>)> = samples
+            .into_iter()
+            .map(|(_, around, movables)| {
+                keys.extend(movables.iter().map(|movable| movable.key.clone()));
+                (around, movables.into_iter().map(|movable| (movable.key.clone(), movable)).collect())
+            })
+            .collect();
+        for key in keys {
+            if favored.places.contains_key(&key) {
+                continue;
+            }
+            let places = cheapest(samples.iter().map(|(around, movables)| (around, movables.get(&key))));
+            for ((around, movables), place) in samples.iter_mut().zip(&places) {
+                if let (Some(movable), Some(place)) = (movables.get(&key), place) {
+                    around.texts.take_text(&movable.at(&movable.places[*place]));
+                }
+            }
+            favored.places.insert(key, places);
+        }
+        favored
+    }
+
+    /// The indices and weights of the favored places of a text at a time (s). Empty if the sample does not show it near this time.
+    #[allow(clippy::cast_precision_loss, reason = "there are few frames in a sample")]
+    pub(super) fn at(&self, key: &Key, time: f64) -> Vec<(usize, f64)> {
+        let Some(places) = self.places.get(key) else { return Vec::new() };
+        let next = self.times.partition_point(|sample| *sample <= time).clamp(1, self.times.len());
+        let here = match self.times.get(next) {
+            Some(end) => (next - 1) as f64 + (time - self.times[next - 1]) / (end - self.times[next - 1]),
+            None => (next - 1) as f64,
+        };
+        let weight = |number: usize| 1.0 - (number as f64 - here).abs() / GLIDE;
+        let weighted = places.iter().enumerate().map(|(number, place)| Some(((*place)?, weight(number))));
+        weighted.flatten().filter(|(_, weight)| *weight > 0.0).collect()
+    }
+}
+
+/// The cheapest series of places of a text in a sample of frames, by dynamic programming (Viterbi algorithm). `None` where the text is absent.
+fn cheapest<'s, 't: 's>(
+    sample: impl Iterator<Item = (&'s Surroundings, Option<&'s Movable<'t>>)>,
+) -> Vec<Option<usize>> {
+    // The least cost of each place up to the present frame, and the place before that leads to it.
+    let mut costs: Vec<f64> = Vec::new();
+    let mut before: Vec<Option<Vec<usize>>> = Vec::new();
+    for (around, movable) in sample {
+        let Some(movable) = movable else {
+            before.push(None);
+            continue;
+        };
+        costs.resize(movable.places.len(), 0.0);
+        let areas: Vec<Rectangle> = movable.places.iter().map(movable.area(around.texts.aspect())).collect();
+        let change = |from: usize, to: usize| {
+            let [change, farther] = COSTS_OF_CHANGE;
+            change + farther * movable.distance(areas[from], areas[to])
+        };
+        let cheapest = least(&costs);
+        let mut next = Vec::with_capacity(costs.len());
+        let mut leading = Vec::with_capacity(costs.len());
+        for (to, place) in movable.places.iter().enumerate() {
+            let mut best = (costs[to], to);
+            for (from, cost) in costs.iter().enumerate() {
+                // Most places cannot lead to a lower cost, by any way.
+                if from != to && cost + COSTS_OF_CHANGE[0] < best.0 {
+                    let cost = cost + change(from, to);
+                    best = if cost < best.0 { (cost, from) } else { best };
+                }
+            }
+            next.push(best.0 - costs[cheapest] + place.cost + around.covered(areas[to]));
+            leading.push(best.1);
+        }
+        costs = next;
+        before.push(Some(leading));
+    }
+    let mut place = least(&costs);
+    let mut places: Vec<Option<usize>> = before
+        .into_iter()
+        .rev()
+        .map(|before| {
+            let here = place;
+            before.map(|before| {
+                place = before[here];
+                here
+            })
+        })
+        .collect();
+    places.reverse();
+    places
+}
+
+/// The index of the least cost; of equal ones, the first.
+fn least(costs: &[f64]) -> usize {
+    (0..costs.len()).min_by(|one, other| costs[*one].total_cmp(&costs[*other])).unwrap_or(0)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::occupancy::Rectangle;
-    use super::super::text::Vertical;
     use super::*;
     use crate::scene::Color;
 
-    fn text(x: f64) -> Text<'static> {
-        let y = Vertical::Middle(0.0);
-        let says = "text".into();
-        Text { name: "t", says, x, y, height: 0.1, align: 0.5, color: Color::WHITE, anchor: None }
+    const TEXT: Text<'_> = Text {
+        name: "t",
+        says: std::borrow::Cow::Borrowed("text"),
+        x: 0.0,
+        y: Vertical::Middle(0.0),
+        height: 0.1,
+        align: 0.5,
+        color: Color::WHITE,
+        anchor: None,
+    };
+
+    /// A text with places at these distances to the right of the middle, with these costs.
+    fn movable(places: &[(f64, f64)]) -> Movable<'static> {
+        let place =
+            |(x, cost): &(f64, f64)| Place { x: *x, y: Vertical::Middle(0.0), align: 0.5, cost: *cost };
+        Movable { key: Key::Label(0), text: TEXT, places: places.iter().map(place).collect() }
     }
 
     fn surroundings() -> Surroundings {
@@ -65,23 +287,92 @@ mod tests {
     }
 
     const AT_ZERO: Rectangle = Rectangle { left: -0.1, right: 0.1, bottom: -0.1, top: 0.1 };
+    const NEAR: [(f64, f64); 2] = [(0.0, 0.0), (0.5, 1.0)];
+    const FAR: [(f64, f64); 2] = [(0.0, 0.0), (0.5, 4.0)];
 
     #[test]
     fn a_text_evades_a_body_and_a_line_only_as_far_as_it_stays_near() {
-        let near = || [(text(0.0), 0.0), (text(0.5), 1.0)].into_iter();
-        let far = || [(text(0.0), 0.0), (text(0.5), 4.0)].into_iter();
         for take in
             [|it: &mut Surroundings| it.bodies.take(AT_ZERO), |it: &mut Surroundings| it.lines.take(AT_ZERO)]
         {
-            for (places, expected) in [(near().collect::<Vec<_>>(), 0.5), (far().collect(), 0.0)] {
+            for (places, expected) in [(NEAR, 0.5), (FAR, 0.0)] {
                 let mut around = surroundings();
                 take(&mut around);
-                assert_eq!(around.settle(places.into_iter()).unwrap().x, expected);
+                assert_eq!(around.settle(&movable(&places), &[]).unwrap().x, expected);
             }
         }
         let mut around = surroundings();
         around.texts.take(AT_ZERO);
-        assert_eq!(around.settle(far()).unwrap().x, 0.5, "another text is evaded at any distance");
-        assert_eq!(around.settle(near()).unwrap().x, 0.0, "if all places are taken, the nearest one counts");
+        assert_eq!(
+            around.settle(&movable(&FAR), &[]).unwrap().x,
+            0.5,
+            "another text is evaded at any distance"
+        );
+        assert_eq!(
+            around.settle(&movable(&NEAR), &[]).unwrap().x,
+            0.0,
+            "if all are taken, the nearest one counts"
+        );
+    }
+
+    #[test]
+    fn a_text_leaves_its_favored_place_only_for_a_text_or_much_else() {
+        let mut around = surroundings();
+        around.lines.take(AT_ZERO);
+        let at_zero = [(0, 1.0)];
+        let near = [(0.0, 0.0), (0.25, 0.0)];
+        assert_eq!(around.settle(&movable(&near), &[]).unwrap().x, 0.25);
+        let mut around = surroundings();
+        around.lines.take(AT_ZERO);
+        assert_eq!(around.settle(&movable(&near), &at_zero).unwrap().x, 0.0);
+        let mut around = surroundings();
+        around.texts.take(AT_ZERO);
+        assert_eq!(around.settle(&movable(&near), &at_zero).unwrap().x, 0.25);
+        let favored = surroundings().settle(&movable(&FAR), &[(0, 1.0), (1, 3.0)]).unwrap();
+        assert_eq!(favored.x, 0.375, "between two favored places, it glides");
+    }
+
+    /// The places of a text in a run of 20 frames, where something is at its usual place in some of them.
+    fn in_run(is_taken: impl Fn(usize) -> bool) -> Favored {
+        let sample = |number: usize| {
+            let mut around = surroundings();
+            if is_taken(number) {
+                around.lines.take(AT_ZERO);
+            }
+            (number as f64, around, vec![movable(&NEAR)])
+        };
+        Favored::new((0..20).map(sample).collect())
+    }
+
+    #[test]
+    fn a_text_changes_its_place_only_where_this_is_better_for_long() {
+        let places = |favored: &Favored| favored.places[&Key::Label(0)].clone();
+        assert_eq!(places(&in_run(|number| number == 7)), [Some(0); 20]);
+        assert_eq!(
+            places(&in_run(|number| number % 3 != 0)),
+            [Some(0); 20],
+            "the other place costs about as much"
+        );
+        let mut around = in_run(|_| false);
+        around.places.insert(Key::Label(1), vec![None, Some(3), Some(3), Some(4)]);
+        around.times.truncate(4);
+        assert_eq!(around.at(&Key::Label(1), 0.0), [(3, 1.0 - 1.0 / GLIDE)]);
+        assert_eq!(around.at(&Key::Label(1), 9.0).last(), Some(&(4, 1.0)), "after the last frame");
+        assert_eq!(around.at(&Key::Label(2), 0.0), []);
+    }
+
+    /// A text stays away as long as another text is at its usual place, and returns only then.
+    #[test]
+    fn a_change_has_the_least_cost_over_the_run() {
+        let sample = |number: usize| {
+            let mut around = surroundings();
+            if (5..9).contains(&number) {
+                around.texts.take(AT_ZERO);
+            }
+            (number as f64, around, vec![movable(&NEAR)])
+        };
+        let favored = Favored::new((0..40).map(sample).collect());
+        let expected: Vec<_> = (0..40).map(|number| Some(usize::from((5..9).contains(&number)))).collect();
+        assert_eq!(favored.places[&Key::Label(0)], expected);
     }
 }

@@ -7,6 +7,7 @@ mod corrected;
 mod crossing;
 mod curves;
 mod ranges;
+mod samples;
 mod spreads;
 mod stretched;
 #[cfg(test)]
@@ -21,6 +22,7 @@ use crossing::{Falls, Watched, free, planes};
 use curves::Curves;
 pub use curves::{CurvePoint, LeftOut};
 use ranges::Ranges;
+use samples::Samples;
 pub use spreads::Spread;
 use spreads::Spreads;
 use stretched::Gaps;
@@ -82,6 +84,8 @@ pub struct Survey {
     pub left_out: Vec<LeftOut>,
     /// The values of the bodies in each histogram, in the order of the scene.
     pub spreads: Vec<Spread>,
+    /// A sample of the frames, without trails and particles, to choose the places of texts. Empty if all texts of the scene stand still.
+    pub samples: Vec<Frame>,
     /// The actual timestep, s: the interval between frames, divided into equal steps.
     pub timestep: f64,
     /// The number of timesteps from one frame to the next.
@@ -163,6 +167,7 @@ pub struct Surveyor<'a> {
     curves: Curves<'a>,
     ranges: Ranges<'a>,
     spreads: Spreads<'a>,
+    samples: Samples,
 }
 
 impl Survey {
@@ -203,6 +208,7 @@ impl<'a> Surveyor<'a> {
             curves: Curves::new(scene),
             ranges: Ranges::new(scene),
             spreads: Spreads::new(scene),
+            samples: Samples::new(scene),
         }
     }
 
@@ -268,6 +274,7 @@ impl<'a> Surveyor<'a> {
         self.curves.see(&moment, &self.measures);
         self.ranges.see(&moment, &self.measures);
         self.spreads.see(&moment, &self.measures, frame.index);
+        self.samples.see(frame);
     }
 
     /// Returns the survey after the last frame.
@@ -289,6 +296,7 @@ impl<'a> Surveyor<'a> {
             curves,
             ranges,
             spreads,
+            samples,
             ..
         } = self;
         let interval = scene.simulation.timeline.interval();
@@ -313,6 +321,7 @@ impl<'a> Surveyor<'a> {
             curves,
             left_out,
             spreads: spreads.finish(),
+            samples: samples.finish(),
             color_ranges,
             value_ranges,
             drift: error.drift(law),

@@ -2,9 +2,9 @@
 
 use super::super::occupancy::Rectangle;
 use super::super::screen::{Screen, ScreenPoint};
-use super::super::surroundings::Surroundings;
+use super::super::surroundings::{Movable, Place};
 use super::super::text::{LINE, MARGIN, Text, Vertical, below};
-use super::{Labels, Planned};
+use super::{Key, Labels, Planned};
 use crate::physics::BodySnapshot;
 use crate::scene::Side;
 use crate::simulate::MomentState;
@@ -35,16 +35,16 @@ impl Labels {
         Some((point, area))
     }
 
-    /// Places a label beside a body or ghost. `None` if the body is outside the picture. The label stays inside the picture. It moves to
-    /// another side or a little farther away if it would cover a text, an arrow or another body.
+    /// The possible places of a label beside a body or ghost. `None` if the body is outside the picture. The label stays inside the picture. It
+    /// moves to another side or a little farther away if it would cover a text, an arrow or another body.
     pub(super) fn beside<'a>(
         &'a self,
         planned: &'a Planned,
         (at, side): (&BodySnapshot, Side),
+        key: Key,
         moment: &MomentState<'_>,
         screen: &Screen,
-        surroundings: &mut Surroundings,
-    ) -> Option<Text<'a>> {
+    ) -> Option<Movable<'a>> {
         let (point, area) = self.seen(at, screen)?;
         if area.right < -1.0 || area.left > 1.0 || area.top < -self.aspect || area.bottom > self.aspect {
             return None;
@@ -59,9 +59,11 @@ impl Labels {
             Side::Right => (area.right + 0.35 * height + farther, middle, 0.0),
         };
         let said = self.said(&planned.block.label.text, moment);
-        let candidate = |side: Side, lines: f64| {
-            let (x, y, align) = at_side(side, lines * LINE * height);
-            self.kept_inside(planned.text(said.as_str().into(), (x, Vertical::Middle(y)), align))
+        let text = planned.text(said.into(), (point.x, Vertical::Middle(point.y)), 0.5);
+        let place = |(x, y, align): (f64, f64, f64), cost: f64| {
+            let Text { x, y, align, .. } =
+                self.kept_inside(Text { x, y: Vertical::Middle(y), align, ..text.clone() });
+            Place { x, y, align, cost }
         };
         let others = match side {
             Side::Above | Side::Below => [side, opposite(side), Side::Right, Side::Left],
@@ -70,18 +72,16 @@ impl Labels {
         let sides = (0..=MAX_LINES_AWAY).flat_map(|lines| {
             let lines = f64::from(lines);
             [0, 1, 2, 3].map(|number| {
-                (candidate(others[number], lines), COST_OF_DISTANCE * lines + COSTS_OF_SIDES[number])
+                let cost = COST_OF_DISTANCE * lines + COSTS_OF_SIDES[number];
+                place(at_side(others[number], lines * LINE * height), cost)
             })
         });
         let corners = [Side::Above, Side::Below].into_iter().flat_map(|side| {
-            let y = Vertical::Middle(at_side(side, 0.0).1);
-            [(area.right, 0.0), (area.left, 1.0)].map(|(x, align)| {
-                (self.kept_inside(planned.text(said.as_str().into(), (x, y), align)), COST_OF_CORNER)
-            })
+            let y = at_side(side, 0.0).1;
+            [(area.right, 0.0), (area.left, 1.0)].map(|(x, align)| place((x, y, align), COST_OF_CORNER))
         });
-        let text = surroundings.settle(sides.chain(corners))?;
-        let Text { x, y, align, .. } = text;
-        Some(planned.text(said.into(), (x, y), align))
+        let places = sides.chain(corners).collect();
+        Some(Movable { key, text, places })
     }
 
     /// Moves a text to the edge of the picture if it would extend beyond this edge.

@@ -14,7 +14,7 @@ use self::lines::Block;
 use super::occupancy::{Occupancy, Rectangle};
 use super::plots;
 use super::screen::Screen;
-use super::surroundings::Surroundings;
+use super::surroundings::{Key, Movable};
 use super::text::{Text, Vertical, least_height};
 use crate::scene::{Color, Corner, DecimalSign, Label, LabelPlace, Output, Scene};
 use crate::simulate::{Frame, Ghost, Measures, MomentState};
@@ -72,13 +72,6 @@ impl Labels {
         Labels { labels, layouts, measures, aspect, note_height, sign }
     }
 
-    /// True if labels stand beside bodies at a time, s.
-    pub(super) fn are_beside_bodies(&self, time: f64) -> bool {
-        let is_beside =
-            |label: &Label| matches!(label.place, LabelPlace::Body { .. }) && label.is_visible(time);
-        self.labels.iter().any(|planned| is_beside(&planned.block.label))
-    }
-
     /// The height of the picture, relative to its width.
     pub(super) fn aspect(&self) -> f64 {
         self.aspect
@@ -109,32 +102,26 @@ impl Labels {
         layout.places.iter().map(text).collect()
     }
 
-    /// Places the labels beside bodies in a frame, and marks their places as taken. Returns each label with its index in the scene.
-    pub(super) fn beside_bodies(
-        &self,
-        frame: &Frame,
-        screen: &Screen,
-        surroundings: &mut Surroundings,
-    ) -> Vec<(usize, Text<'_>)> {
+    /// The labels beside bodies and ghosts in a frame, with their possible places.
+    pub(super) fn beside_bodies(&self, frame: &Frame, screen: &Screen) -> Vec<Movable<'_>> {
         let now = MomentState::now(frame);
         let ghosts_of = self.ghosts_by_body(frame);
-        let mut texts = Vec::new();
+        let mut movables = Vec::new();
         for (number, planned) in self.labels.iter().enumerate() {
             let LabelPlace::Body { body, side, ghosts } = planned.block.label.place else { continue };
             if !planned.block.label.is_visible(frame.time) {
                 continue;
             }
             let here = frame.body(body);
-            let text = here.and_then(|here| self.beside(planned, (here, side), &now, screen, surroundings));
-            texts.extend(text.map(|text| (number, text)));
+            let key = Key::Label(number);
+            movables.extend(here.and_then(|here| self.beside(planned, (here, side), key, &now, screen)));
             let its = ghosts_of.get(&body).filter(|_| ghosts);
             for ghost in its.into_iter().flatten() {
-                let then = MomentState::then(ghost);
-                let text = self.beside(planned, (&ghost.body, side), &then, screen, surroundings);
-                texts.extend(text.map(|text| (number, text)));
+                let (key, then) = (Key::Ghost(number, ghost.time.to_bits()), MomentState::then(ghost));
+                movables.extend(self.beside(planned, (&ghost.body, side), key, &then, screen));
             }
         }
-        texts
+        movables
     }
 
     /// The parts of a picture that bodies and ghosts cover.

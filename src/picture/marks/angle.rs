@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{HELPING_LINE_RADIUS, MAIN_LINE_RADIUS, Mark, Note, Says, Scale, Sketch};
+use super::{HELPING_LINE_RADIUS, MAIN_LINE_RADIUS, Mark, Note, Says, Scale, Sides, Sketch};
 use crate::physics::Anchor;
 use crate::picture::thing::{Form, Line, Thing};
 use crate::scene::{Angle, Body, Color, Leg, Scene};
@@ -74,9 +74,11 @@ impl Mark for AngleMark {
         });
         sketch.notes.push(Note {
             name: &self.name,
+            number: 0,
             says: Says::Text(&self.angle.text),
             at: now.vertex + now.leg(0.5) * size,
             away: now.leg(0.5),
+            sides: Sides::Wanted,
             color: self.color,
         });
     }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{HELPING_LINE_RADIUS, Note, Says, Sketch};
+use super::{HELPING_LINE_RADIUS, Note, Says, Sides, Sketch};
 use crate::picture::arrows::{Arrow, Arrows};
 use crate::picture::thing::{Form, Line, Thing};
 use crate::scene::{ArrowMark, ArrowOwner, Piece, Quantity, Scene};
@@ -63,13 +63,14 @@ impl ArrowMarks {
 
 impl Named {
     fn draw<'a>(&'a self, arrow: &Arrow, of: &Arrows, frame: &Frame, stroke: f64, sketch: &mut Sketch<'a>) {
-        let mut note = |arrow: &Arrow, text: &'a [Piece]| {
+        let mut note = |number: u8, arrow: &Arrow, text: &'a [Piece]| {
             let away = (arrow.to - arrow.from).normalize_or_zero();
             let Arrow { to: at, color, .. } = *arrow;
-            sketch.notes.push(Note { name: &self.name, says: Says::Text(text), at, away, color });
+            let (name, says, sides) = (&self.name, Says::Text(text), Sides::Wanted);
+            sketch.notes.push(Note { name, number, says, at, away, sides, color });
         };
         if let Some(text) = &self.mark.text {
-            note(arrow, text);
+            note(0, arrow, text);
         }
         let Some(components) = &self.mark.components else { return };
         let whole = arrow.to - arrow.from;
@@ -80,7 +81,7 @@ impl Named {
         let Some(along) = direction(components.along, vertex, bodies, &frame.bodies) else { return };
         let along = along * whole.dot(along);
         let mut helping = Vec::new();
-        for (number, way) in [along, whole - along].into_iter().enumerate() {
+        for (number, way) in [(0, along), (1, whole - along)] {
             if way.length() <= MIN_COMPONENT * whole.length() {
                 continue;
             }
@@ -89,7 +90,7 @@ impl Named {
             sketch.things.push(of.thing(&component));
             helping.push(Line { from: to, to: arrow.to, radius: HELPING_LINE_RADIUS * stroke });
             if let Some(texts) = &components.texts {
-                note(&component, &texts[number]);
+                note(number + 1, &component, &texts[usize::from(number)]);
             }
         }
         if helping.len() == 2 {

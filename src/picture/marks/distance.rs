@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{BVec3, DVec3};
 
 use super::angle::drawn;
-use super::{HELPING_LINE_RADIUS, MAIN_LINE_RADIUS, Mark, Note, Says, Scale, Sketch};
+use super::{HELPING_LINE_RADIUS, MAIN_LINE_RADIUS, Mark, Note, Says, Scale, Sides, Sketch};
 use crate::physics::Anchor;
 use crate::picture::length::prefixed;
 use crate::picture::number;
@@ -79,19 +79,20 @@ impl Mark for DistanceMark {
             form: Form::Lines { lines },
             color: self.color,
         });
-        // The text stands on the side of the offset; without an offset above the line, or to the right of it.
-        let (up, right) = (scale.screen.up(), scale.screen.right());
-        let outward =
-            self.distance.offset.dot(aside) + 1e-9 * scale.view * (aside.dot(up) + 0.5 * aside.dot(right));
+        // The text stands on the side of the offset; without an offset, on either side.
+        let outward = self.distance.offset.dot(aside);
+        let is_beside = outward.abs() > 1e-9 * scale.view;
         sketch.notes.push(Note {
             name: &self.name,
+            number: 0,
             says: self
                 .distance
                 .text
                 .as_deref()
                 .map_or_else(|| Says::Words(with_unit(now.value, scale.view)), Says::Text),
             at: middle_of_visible([begin, end], scale).unwrap_or(middle),
-            away: aside * outward.signum(),
+            away: if is_beside { aside * outward.signum() } else { aside },
+            sides: if is_beside { Sides::Wanted } else { Sides::Both },
             color: self.color,
         });
     }

@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 pub(super) use self::arrow::ArrowMarks;
 pub(super) use self::distance::with_lines;
-pub(super) use self::note::{Note, Says, place};
+pub(super) use self::note::{Note, Says, Sides, movable};
 
 use super::camera::Placed;
 use super::screen::Screen;

@@ -31,6 +31,7 @@ use super::scope::{Part, Scope};
 use super::screen::Screen;
 use super::sight::Sight;
 use super::stage::{Scenery, Stage, stroke};
+use super::surroundings::Favored;
 use super::thing::{PlannedThing, Thing};
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
@@ -57,6 +58,8 @@ pub struct Plan {
     ruled: Option<GridLayout>,
     bar: Option<ScaleBars>,
     labels: Labels,
+    /// The favored places of the texts that can move.
+    favored: Favored,
     plots: Plots,
     looks: LookMaps,
     /// Angles and dimension lines.
@@ -143,7 +146,7 @@ impl Plan {
         let bar = scene.scale_bar.map(|bar| ScaleBars::new(scene, bar, &scenery, ink));
         let plots = Plots::new(scene, survey, Arc::clone(&measures));
         let bar_at_start = bar.as_ref().and_then(|bar| bar.extent(&placed.screen()));
-        Plan {
+        let mut plan = Plan {
             lights_move: lights.moves(),
             lights,
             arrows,
@@ -157,6 +160,7 @@ impl Plan {
             ruler,
             bar,
             labels: Labels::new(scene, ink, plots.areas(), measures.clone()),
+            favored: Favored::default(),
             plots,
             looks: LookMaps::new(scene, survey, measures.clone()),
             marks: Marks::new(scene, &measures, &stage, (placed, early), ink),
@@ -168,7 +172,9 @@ impl Plan {
             stage,
             eye,
             followed,
-        }
+        };
+        plan.favored = plan.favored(&survey.samples);
+        plan
     }
 
     /// The sizes of arrows and lines in a frame. They are constant for a fixed camera.

@@ -433,3 +433,28 @@ fn copies_have_a_bar_each() {
     let said: Vec<&str> = plan.planned_plots()[0].texts.iter().map(|text| text.says.as_ref()).collect();
     assert!(["0", "1", "2", "m/s"].iter().all(|word| said.contains(word)), "{said:?}");
 }
+
+/// The texts of a swinging pendulum cross each other's ways. From one frame to the next, none moves by more than a few letters.
+#[test]
+fn texts_do_not_jump_from_frame_to_frame() {
+    let text = "simulation = { duration = 4, gravity = [0, -10, 0], integrator = 'rk4' }
+        [body.bob]\nshape.sphere.radius = 0.07\nlocation = ['sin(rad(40))', '1 - cos(rad(40))', 0]
+        [joint.string.rod]\nbetween = [[0, 1, 0], 'bob']
+        [angle.phi]\nat = [0, 1, 0]\nfrom = [0, -1, 0]\nto = 'bob'
+        [distance.L]\nbetween = [[0, 1, 0], 'bob']
+        [label.bob]\ntext = 'the bob'\nbody = 'bob'";
+    let scene = Scene::parse(text).unwrap();
+    let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+    let mut before: Vec<[f64; 2]> = Vec::new();
+    let mut jumps = 0;
+    for frame in Frames::new(&scene) {
+        let texts = plan.texts(&frame.unwrap());
+        let places: Vec<[f64; 2]> = texts.iter().map(|text| [text.x, text.y.above_middle(0.5625)]).collect();
+        assert_eq!(places.len(), 3);
+        let is_jump =
+            |(one, other): (&[f64; 2], &[f64; 2])| libm::hypot(one[0] - other[0], one[1] - other[1]) > 0.15;
+        jumps += before.iter().zip(&places).filter(|pair| is_jump(*pair)).count();
+        before = places;
+    }
+    assert_eq!(jumps, 0);
+}

@@ -4,11 +4,10 @@ use glam::DVec3;
 
 use super::Plan;
 use crate::picture::bar::Bar;
-use crate::picture::marks::{self, Note, Sketch};
+use crate::picture::marks::{self, Sketch};
 use crate::picture::screen::Screen;
-use crate::picture::surroundings::Surroundings;
+use crate::picture::surroundings::{Favored, Key, Movable, Surroundings};
 use crate::picture::text::Text;
-use crate::picture::thing::Thing;
 use crate::simulate::{Frame, MomentState};
 
 /// The texts of a frame, by kind.
@@ -26,6 +25,21 @@ pub struct Written<'a> {
     pub labels: Vec<Text<'a>>,
 }
 
+/// The texts of a frame, before those with several possible places are placed.
+struct Started<'a> {
+    screen: Screen,
+    /// The axis names of the grid.
+    grid: Vec<Text<'a>>,
+    /// The numbers of the grid.
+    numbers: Vec<Text<'a>>,
+    bar: Option<(Bar, Text<'a>)>,
+    /// The labels that stand at no body, each with its index in the scene.
+    labels: Vec<(usize, Text<'a>)>,
+    movables: Vec<Movable<'a>>,
+    /// What the movable texts evade. `None` without such texts.
+    surroundings: Option<Surroundings>,
+}
+
 impl Plan {
     /// The texts of a frame in a single list: axis names and numbers of the grid, the number of the scale bar, the texts of arrows and marks,
     /// the labels.
@@ -36,10 +50,43 @@ impl Plan {
 
     /// Places the texts of a frame. `None` if the scene has no texts.
     ///
-    /// Labels in corners and the scale bar have fixed positions. The axis names of the grid are placed next, then the labels beside
-    /// bodies and the texts of arrows and marks, then the numbers of the grid, each where there is room. No text covers a spring or joint, except an axis name without
+    /// Labels in corners and the scale bar have fixed positions. The axis names of the grid are placed next, then the texts of arrows and marks
+    /// and the labels beside bodies, then the numbers of the grid, each where there is room. No text covers a spring or joint, except an axis name without
     /// another free position.
     pub fn written<'a>(&'a self, frame: &Frame) -> Option<Written<'a>> {
+        let Started { screen, mut grid, numbers, bar, mut labels, movables, surroundings } =
+            self.started(frame)?;
+        let mut named = Vec::new();
+        let mut moved = self.labels.room();
+        let is_alone = surroundings.is_none();
+        if let Some(mut surroundings) = surroundings {
+            for movable in movables {
+                let favored = self.favored.at(&movable.key, frame.time);
+                let Some(text) = surroundings.settle(&movable, &favored) else { continue };
+                moved.take_text(&text);
+                match movable.key {
+                    Key::Note(..) => named.push(text),
+                    Key::Label(number) | Key::Ghost(number, _) => labels.push((number, text)),
+                }
+            }
+        }
+        grid.extend(numbers.into_iter().filter(|number| is_alone || moved.has_room_for(number)));
+        labels.sort_by_key(|(place, _)| *place);
+        let labels = labels.into_iter().map(|(_, text)| text).collect();
+        Some(Written { screen, grid, bar, named, labels })
+    }
+
+    /// Chooses the favored places of texts from a sample of frames.
+    pub(super) fn favored(&self, samples: &[Frame]) -> Favored {
+        let sample = |frame: &Frame| {
+            let started = self.started(frame)?;
+            Some((frame.time, started.surroundings?, started.movables))
+        };
+        Favored::new(samples.iter().filter_map(sample).collect())
+    }
+
+    /// Places the texts of a frame that have only one place, and finds the possible places of the others. `None` if the scene has no texts.
+    fn started<'a>(&'a self, frame: &Frame) -> Option<Started<'a>> {
         let screen = self.screen(frame)?;
         let mut room = self.labels.room();
         self.plots.areas().for_each(|area| room.take(area));
@@ -48,46 +95,35 @@ impl Plan {
             room.take_text(number);
             room.take(bar.area(room.aspect()));
         }
-        let mut labels = self.labels.in_corners(frame);
+        let labels = self.labels.in_corners(frame);
         labels.iter().for_each(|(_, text)| room.take_text(text));
         let mut links = self.labels.room();
         for (line, width) in self.linked(frame) {
             links.cross(line, width, &screen);
         }
         let ruled = self.ruled(frame).map(|ruled| ruled.written(&screen, &room, &links));
-        let (mut grid, numbers) = ruled.map_or_else(Default::default, |it| (it.titles, it.numbers));
+        let (grid, numbers) = ruled.map_or_else(Default::default, |it| (it.titles, it.numbers));
         grid.iter().for_each(|title| room.take_text(title));
         let sketch = self.sketch(frame);
         let of_arrows = match self.arrow_marks.is_empty() {
             true => Sketch::default(),
             false => self.sketch_of_arrows(frame, &self.arrows_in_front(frame)),
         };
-        let things: Vec<Thing<'_>> = of_arrows.things.into_iter().chain(sketch.things).collect();
-        let notes: Vec<Note<'_>> = of_arrows.notes.into_iter().chain(sketch.notes).collect();
-        let mut named = Vec::new();
-        if self.labels.are_beside_bodies(frame.time) || !notes.is_empty() {
-            let before = labels.len();
-            let mut surroundings = Surroundings {
-                texts: room,
-                lines: self.labels.room(),
-                bodies: self.labels.crowd(frame, &screen),
-            };
-            let avoided = things.iter().flat_map(|thing| thing.form.avoided());
+        let now = MomentState::now(frame);
+        let notes = of_arrows.notes.into_iter().chain(sketch.notes);
+        let mut movables: Vec<Movable<'_>> =
+            notes.filter_map(|note| marks::movable(note, &self.labels, &now, &screen)).collect();
+        movables.extend(self.labels.beside_bodies(frame, &screen));
+        let surroundings = (!movables.is_empty()).then(|| {
+            let mut lines = self.labels.room();
+            let avoided =
+                of_arrows.things.iter().chain(&sketch.things).flat_map(|thing| thing.form.avoided());
             for (ends, width) in self.lines(frame).into_iter().chain(avoided) {
-                surroundings.lines.cross(ends, width, &screen);
+                lines.cross(ends, width, &screen);
             }
-            let mut beside = self.labels.room();
-            named = marks::place(notes, &self.labels, &MomentState::now(frame), &screen, &mut surroundings);
-            named.iter().for_each(|text| beside.take_text(text));
-            labels.extend(self.labels.beside_bodies(frame, &screen, &mut surroundings));
-            labels[before..].iter().for_each(|(_, text)| beside.take_text(text));
-            grid.extend(numbers.into_iter().filter(|number| beside.has_room_for(number)));
-            labels.sort_by_key(|(place, _)| *place);
-        } else {
-            grid.extend(numbers);
-        }
-        let labels = labels.into_iter().map(|(_, text)| text).collect();
-        Some(Written { screen, grid, bar, named, labels })
+            Surroundings { texts: room, lines, bodies: self.labels.crowd(frame, &screen) }
+        });
+        Some(Started { screen, grid, numbers, bar, labels, movables, surroundings })
     }
 
     /// The lines that labels avoid in a frame, each with its width, m: arrows, coordinate axes, springs and joints.

@@ -182,6 +182,18 @@ impl Axis {
         }
     }
 
+    /// Returns a name with the unit of the axis. A name that ends with its own unit, such as `r (m)`, gets only the power of ten, if there is one.
+    pub(super) fn named(&self, name: &str, symbol: &str) -> String {
+        let before_unit = name.strip_suffix(')').and_then(|name| name.rsplit_once(" ("));
+        // In `2 * (a + b)`, the parentheses hold no unit.
+        let has_unit = before_unit.is_some_and(|(before, _)| !before.ends_with(['+', '-', '*', '/', '^']));
+        match (self.unit(if has_unit { "" } else { symbol }), has_unit) {
+            (unit, _) if unit.is_empty() => name.to_owned(),
+            (power, true) => format!("{name} {power}"),
+            (unit, false) => format!("{name} ({unit})"),
+        }
+    }
+
     /// Returns the unit that stands at the axis: the power of ten of its numbers, and the symbol of the unit.
     pub(super) fn unit(&self, symbol: &str) -> String {
         let exponent = match self.numbers {
@@ -239,6 +251,10 @@ mod tests {
         assert_eq!((scale.unit("J"), scale.unit("")), ("10⁻⁶ J".to_owned(), "·10⁻⁶".to_owned()));
         let scale = axis([-3e30, 6e30], 3.0, true);
         assert_eq!((said(&scale), scale.unit("J")), (vec!["0".into(), "5".into()], "10³⁰ J".into()));
+        assert_eq!(
+            (scale.named("E", "J"), scale.named("E (J)", "J")),
+            ("E (10³⁰ J)".into(), "E (J) ·10³⁰".into())
+        );
     }
 
     #[test]

@@ -106,8 +106,7 @@ fn bar(
         color: mixed(ink, paper, 0.1),
         anchor: None,
     };
-    let unit = axis.unit(map.of.unit().unwrap_or_default());
-    let title = if unit.is_empty() { map.title.clone() } else { format!("{} ({unit})", map.title) };
+    let title = axis.named(&map.title, map.of.unit().unwrap_or_default());
     let title_at = [wide / 2.0, foot + (STRIP_HEIGHT + 0.5) * line];
     let mut texts = vec![text(cut(&title, wide - 2.0 * pad, line), title_at)];
     let mut lines = Vec::new();

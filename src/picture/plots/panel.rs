@@ -275,9 +275,7 @@ impl Panel {
         if !legend.below.is_empty() {
             return texts;
         }
-        let unit = axes[0].unit(legend.units[0]);
-        let name =
-            if unit.is_empty() { legend.x_name.to_owned() } else { format!("{} ({unit})", legend.x_name) };
+        let name = axes[0].named(legend.x_name, legend.units[0]);
         // The name stands in place of the last numbers, or in a row of its own.
         let end = self.size[0] - pad;
         let begin_of_name = if self.name_row > 0.0 { end } else { end - width(&name, line) - 0.5 * line };
