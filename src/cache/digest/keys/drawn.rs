@@ -93,6 +93,8 @@ pub(super) const KEYS_THAT_DRAW: &[(&str, &[&str])] = &[
         &[
             "location",
             "look_at",
+            "up",
+            "roll",
             "keyframes",
             "follow",
             "orbit",
