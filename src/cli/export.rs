@@ -175,7 +175,7 @@ fn report(error: ExportError, path: &Path) -> Report {
     match error {
         ExportError::Io(error) => OutputError::Io(path.to_owned(), error).report(),
         ExportError::Simulate(error) => OutputError::from(error).report(),
-        ExportError::TooLarge(_) | ExportError::OutOfRange { .. } => {
+        ExportError::TooLarge(_) | ExportError::NoValue { .. } | ExportError::OutOfRange { .. } => {
             let message = format!("`{}`: {error}", visible_path(path));
             let diagnostic = Diagnostic::error(Code::CannotExport, message);
             let help = error.help();

@@ -12,10 +12,10 @@ pub enum EmitError {
         /// The time of the frame, s.
         time: f64,
     },
-    /// A value in the scene's own SDL is unknown at the time of a frame.
+    /// A value that the camera, a light or the scene's own SDL follows is unknown at the time of a frame.
     NoValue {
-        /// The formula as it is written in the scene.
-        formula: String,
+        /// What follows the value.
+        what: String,
         /// The time of the frame, s.
         time: f64,
     },
@@ -105,8 +105,8 @@ impl std::fmt::Display for EmitError {
             EmitError::OutOfRange { what, time } => {
                 write!(f, "at t = {time} s {what} is at a place that is no number in POV-Ray's units")
             }
-            EmitError::NoValue { formula, time } => {
-                write!(f, "at t = {time} s `${{{formula}}}` in `povray.sdl` has no value")
+            EmitError::NoValue { what, time } => {
+                write!(f, "at t = {time} s {what} has no value: a body that a formula names may be absent")
             }
             EmitError::Blind { time } => {
                 write!(f, "at t = {time} s POV-Ray cannot tell the camera from the point that it looks at")

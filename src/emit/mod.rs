@@ -110,6 +110,8 @@ pub struct Emitter {
     plan: Plan,
     /// The scene's own SDL, if values in it change from frame to frame. Otherwise it is in the shared part.
     sdl: Vec<SdlPiece>,
+    /// True if a camera or a light follows measures.
+    follows_measures: bool,
     unit: Unit,
     style: Style,
     /// The names of the bodies, by index in the scene.
@@ -157,6 +159,7 @@ impl Emitter {
             } else {
                 Vec::new()
             },
+            follows_measures: scene.stage_follows_measures(),
             unit,
             style,
             names: scene.bodies.iter().map(|body| body.name.clone()).collect(),
@@ -191,7 +194,12 @@ impl Emitter {
     pub fn script(&self, frame: &Frame) -> Result<String, EmitError> {
         let out_of_range = |what: String| EmitError::OutOfRange { what, time: frame.time };
         if let Some(what) = self.plan.lost(frame) {
-            return Err(out_of_range(what));
+            let time = frame.time;
+            return Err(if self.follows_measures {
+                EmitError::NoValue { what, time }
+            } else {
+                out_of_range(what)
+            });
         }
         if self.plan.camera_moves()
             && !distinct::sees(&self.plan.camera(frame), self.unit.length, self.style.digits)
@@ -215,16 +223,21 @@ impl Emitter {
 
     /// Returns the scene's own SDL with the values of a frame. `None` if it is in the shared part.
     fn own_sdl(&self, frame: &Frame) -> Result<Option<String>, EmitError> {
+        let value = self.plan.values(frame);
         let mut sdl = String::new();
         for piece in &self.sdl {
             match piece {
                 SdlPiece::Sdl(code) => sdl.push_str(code),
                 SdlPiece::Value { text, formula } => {
-                    let value = self.plan.value(formula, frame);
+                    let value = value(formula);
                     if !value.is_finite() {
-                        return Err(EmitError::NoValue { formula: text.clone(), time: frame.time });
+                        let what = format!("`${{{text}}}` in `povray.sdl`");
+                        return Err(EmitError::NoValue { what, time: frame.time });
                     }
+                    // The check of untrusted SDL takes the value for a word of its own.
+                    sdl.push(' ');
                     self.style.number(&mut sdl, value);
+                    sdl.push(' ');
                 }
             }
         }

@@ -14,6 +14,13 @@ pub enum ExportError {
     Simulate(SimulateError),
     /// The file would be larger than its format allows. It would have at least this many bytes.
     TooLarge(u64),
+    /// A value that a camera or a light follows is unknown at the time of a frame.
+    NoValue {
+        /// What follows the value.
+        what: String,
+        /// The time of the frame, s.
+        time: f64,
+    },
     /// The location of a body, a camera or a light exceeds the largest number of the format.
     OutOfRange {
         /// The name of the body, camera or light.
@@ -53,6 +60,9 @@ impl fmt::Display for ExportError {
                     "the file would have {:.2} GB or more, and a `.glb` holds 4.29 GB at most",
                     *bytes as f64 / 1e9
                 )
+            }
+            ExportError::NoValue { what, time } => {
+                write!(f, "at t = {time} s {what} has no value: a body that a formula names may be absent")
             }
             ExportError::OutOfRange { what, time } => {
                 write!(

@@ -14,26 +14,31 @@ pub struct FileColumn {
 /// The further columns of the trajectory files of a scene that formulas can name.
 #[derive(Clone, Debug, Default)]
 pub struct FileColumns {
-    /// The name of each column, and the symbol of its unit, which is empty for a pure number or an unknown unit.
-    names: Vec<(String, &'static str)>,
+    /// The name of each column, and its unit. Columns of one name in files with other units are different columns.
+    names: Vec<(String, ColumnUnit)>,
     /// The columns of bodies, each with the index of its body in the scene and that of its name, in ascending order.
     columns: Vec<([usize; 2], FileColumn)>,
 }
 
+/// The unit of a further column.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ColumnUnit {
+    /// The symbol of the SI unit that the values are converted to. Empty for a pure number and for an unknown unit.
+    pub si: &'static str,
+    /// The symbol of an unknown unit, whose values are not converted.
+    pub unknown: Option<String>,
+}
+
 impl FileColumns {
     /// Adds a column of a body, given by its index in the scene.
-    pub(super) fn add(&mut self, body: usize, name: &str, unit: &'static str, column: FileColumn) {
-        let number = self.named(name).unwrap_or_else(|| {
-            self.names.push((name.to_owned(), unit));
+    pub(super) fn add(&mut self, body: usize, name: &str, unit: &ColumnUnit, column: FileColumn) {
+        let known = self.names.iter().position(|(known, its)| known == name && its == unit);
+        let number = known.unwrap_or_else(|| {
+            self.names.push((name.to_owned(), unit.clone()));
             self.names.len() - 1
         });
         let place = self.columns.partition_point(|(key, _)| *key < [body, number]);
         self.columns.insert(place, ([body, number], column));
-    }
-
-    /// Returns the index of the column with this name. `None` if no file of the scene has one.
-    pub(super) fn named(&self, name: &str) -> Option<usize> {
-        self.names.iter().position(|(known, _)| known == name)
     }
 
     /// Returns the names of the columns of a body, or of all bodies.
@@ -44,7 +49,7 @@ impl FileColumns {
 
     /// Returns the symbol of the unit of a column. It is empty for a pure number and for an unknown unit.
     pub(super) fn unit(&self, number: usize) -> &'static str {
-        self.names[number].1
+        self.names[number].1.si
     }
 
     fn of(&self, body: usize, number: usize) -> Option<&FileColumn> {

@@ -122,7 +122,7 @@ pub use contact::{Collider, ContactLaw, is_by_moreau};
 pub use drawn_field::{DrawnField, FieldStyle};
 pub use emitter::Emitter;
 pub(crate) use expand::in_string;
-pub use file_columns::{FileColumn, FileColumns};
+pub use file_columns::{ColumnUnit, FileColumn, FileColumns};
 pub use force::{Force, ForceKind};
 pub use joint::{Joint, JointKind, JointLook, PrescribedCoordinate};
 pub use label::{Corner, Format, Grid, GridPlane, Label, LabelPlace, Piece, ScaleBar, Side};

@@ -1,9 +1,12 @@
 //! The numbers of particles that emitters have at a time. They follow from births and lifetimes alone, so no particle has to be moved.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::physics::{ParticleSource, Presence};
 use crate::scene::{Emitter, EmitterMeasure, Scene, Timeline};
+
+/// The largest number of births in a run whose times are kept. Of more, the living ones are counted at each moment.
+const MOST_KEPT: u64 = 5_000_000;
 
 /// The births of an emitter in a run.
 #[derive(Clone, Debug)]
@@ -12,13 +15,16 @@ pub(super) struct Births {
     /// The times at which the body is present that carries the emitter. `None` without such a body.
     carrier: Option<Presence>,
     timeline: Timeline,
+    /// The times of all births and of all deaths in the run, s, each in ascending order. `None` if there are too many.
+    lives: Arc<OnceLock<Option<[Vec<f64>; 2]>>>,
 }
 
 impl Births {
     /// Prepares the births of an emitter.
     pub(super) fn new(scene: &Scene, emitter: &Emitter) -> Births {
         let carrier = emitter.carrier.map(|body| scene.bodies[body.index()].presence.clone());
-        Births { source: emitter.source.clone(), carrier, timeline: scene.simulation.timeline }
+        let timeline = scene.simulation.timeline;
+        Births { source: emitter.source.clone(), carrier, timeline, lives: Arc::default() }
     }
 
     /// Returns a measure of the emitter at a time, s.
@@ -32,14 +38,38 @@ impl Births {
     /// The number of living particles at a time, s.
     #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of particles")]
     fn living(&self, time: f64) -> f64 {
-        let births = self.source.births;
-        let first = births.first_from((time - self.source.longest_life).max(births.start));
-        let born =
-            (first..).map_while(|number| Some((number, births.time(number).filter(|at| *at <= time)?)));
-        let lives = |(number, born): &(u64, f64)| {
-            born + self.source.life(*number, *born) > time && self.may_emit(*born)
-        };
-        born.filter(lives).count() as f64
+        match self.lives.get_or_init(|| self.lives()) {
+            Some([births, deaths]) => {
+                let until = |times: &[f64]| times.partition_point(|at| *at <= time);
+                (until(births) - until(deaths)) as f64
+            }
+            None => {
+                let oldest = (time - self.source.longest_life).max(self.source.births.start);
+                let first = self.source.births.first_from(oldest);
+                self.born(first, time).filter(|[_, dies]| *dies > time).count() as f64
+            }
+        }
+    }
+
+    /// The times of birth and death of the particles from a number on that are born until a time, s.
+    fn born(&self, first: u64, until: f64) -> impl Iterator<Item = [f64; 2]> {
+        let births = (first..).map_while(move |number| {
+            Some((number, self.source.births.time(number).filter(|at| *at <= until)?))
+        });
+        let emitted = births.filter(|(_, born)| self.may_emit(*born));
+        emitted.map(|(number, born)| [born, born + self.source.life(number, born)])
+    }
+
+    /// The times of all births and of all deaths in the run. `None` if there are too many.
+    fn lives(&self) -> Option<[Vec<f64>; 2]> {
+        let end = self.timeline.latest();
+        if self.source.births.time(MOST_KEPT).is_some_and(|birth| birth <= end) {
+            return None;
+        }
+        let (births, mut deaths): (Vec<f64>, Vec<f64>) =
+            self.born(0, end).map(|[born, dies]| (born, dies)).unzip();
+        deaths.sort_unstable_by(f64::total_cmp);
+        Some([births, deaths])
     }
 
     /// The mean number of births per second at a time (s), 1/s.

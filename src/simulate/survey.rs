@@ -71,7 +71,7 @@ pub struct Survey {
     pub laws: Vec<LawResidual>,
     /// The joint that gives way most under time-stepping. `None` if all joints hold well.
     pub stretched: Option<StretchedJoint>,
-    /// The first frame, without its past and its particles. `None` unless a camera or a light follows measures.
+    /// The first frame, without particles, and of its past only what measures need. `None` unless a camera or a light follows measures.
     pub first: Option<Arc<Frame>>,
     /// The points of each curve of all plots, in the order of the scene. In long runs, only the points with the lowest and the highest
     /// values of neighboring frames.
@@ -227,9 +227,6 @@ impl<'a> Surveyor<'a> {
         self.overlaps.see(frame);
         if frame.index == 0 {
             self.corrected = Corrected::find(scene, frame);
-            self.first = scene
-                .stage_follows_measures()
-                .then(|| Arc::new(Frame { past: Past::default(), particles: Vec::new(), ..frame.clone() }));
         }
         let loads = super::loads(scene, frame);
         self.requested.see(scene, frame, &loads);
@@ -242,6 +239,11 @@ impl<'a> Surveyor<'a> {
             vector: load.vector,
         });
         self.tallies.note(frame);
+        if frame.index == 0 && scene.stage_follows_measures() {
+            let (areas, closest) = self.tallies.clone().finish();
+            let past = Past { areas, closest, ..Past::default() };
+            self.first = Some(Arc::new(Frame { past, particles: Vec::new(), ..frame.clone() }));
+        }
         let moment = MomentState::with_past(frame, self.tallies.so_far());
         let of_forces = self.arrows.of_forces(frame, &moment, &self.measures);
         self.requested.see_forces(&of_forces);

@@ -97,9 +97,9 @@ fn mistakes_in_what_follows_measures_are_said_once_at_their_places() {
 #[test]
 fn an_unknown_value_is_an_error_and_no_script() {
     for (keys, expected) in [
-        ("[camera]\nlocation = ['late.x', 1, 5]", "at t = 0 s the camera is"),
-        ("[camera]\nangle = 'late.speed'", "at t = 0 s the camera is"),
-        ("[light.lamp]\npoint.location = [0, 'late.y', 5]", "at t = 0 s the light `lamp` is"),
+        ("[camera]\nlocation = ['late.x', 1, 5]", "at t = 0 s the camera has no value"),
+        ("[camera]\nangle = 'late.speed'", "at t = 0 s the camera has no value"),
+        ("[light.lamp]\npoint.location = [0, 'late.y', 5]", "at t = 0 s the light `lamp` has no value"),
         ("[povray]\nsdl = '#declare A = ${late.x};'", "at t = 0 s `${late.x}` in `povray.sdl` has no value"),
     ] {
         let late = "[body.late]\nshape.sphere.radius = 0.2\nlocation = [3, 3, 0]\nstart = 0.5\n";
@@ -197,6 +197,14 @@ fn values_in_sdl_are_formulas_and_nothing_else() {
         |sdl: &str| Scene::parse(&format!("{SCENE}\n[povray]\nsdl = \"{sdl}\"")).unwrap_err().to_string();
     let hidden = report("// ${\\n#fopen F \\\"x\\\" write\\n}");
     assert!(hidden.contains("error"), "{hidden}");
+    // Nor does a value become part of a word: `df3` reads a file, and `1e` is a number for POV-Ray.
+    let scene = format!("{SCENE}\n[povray]\nsdl = '#declare df0 = ${{1}}; #declare B = df${{1+2}};'");
+    let scene = Scene::parse(&scene).unwrap();
+    let run = Run::new(&scene).unwrap();
+    let script = run.emitter().script(&run.frames().next().unwrap().unwrap()).unwrap();
+    assert!(script.contains("#declare df0 =  1 ; #declare B = df 3 ;"), "{script}");
+    let string = report("#declare A = \\\"part${t}.inc\\\";");
+    assert!(string.contains("a value cannot stand within a string"), "{string}");
     let beside = report("#declare A = ${t}; #fopen F A write");
     assert!(beside.contains("untrusted-sdl") && beside.contains("#fopen F A write"), "{beside}");
 }

@@ -98,10 +98,21 @@ fn motions_that_follow_each_other_are_named() {
         format!("[body.{name}]\nshape.sphere.radius = 1\nmotion.formula.location = ['{x}', 0, 0]\n")
     };
     let report = |text: &str| Scene::parse(text).unwrap_err().to_string();
-    let said = report(&(body("a", "t + b.x") + &body("b", "c.x/2") + &body("c", "1 - a.x")));
-    assert_eq!(said.matches("error").count(), 3, "{said}");
-    assert!(said.contains("the motions of `b` and `c` and `a` follow each other"), "{said}");
+    let said =
+        report(&(body("a", "t + b.x") + &body("b", "c.x/2") + &body("c", "1 - a.x") + &body("d", "a.x")));
+    assert_eq!(said.matches("error").count(), 3, "`d` is outside of the circle: {said}");
+    assert!(said.contains("follow each other"), "{said}");
     assert!(report(&body("a", "a.x + t")).contains("the motion of `a` follows itself"));
+    // A mistake is reported where it is, and only there.
+    let said = report(&(body("a", "foo*t") + &body("b", "a.x + 1") + &body("c", "b.x + bar")));
+    assert_eq!(said.matches("error").count(), 1, "{said}");
+    assert!(said.contains("there is no variable `foo`"), "{said}");
+    let said = report(&(body("a", "t") + &body("b", "a.x + bar")));
+    assert!(said.contains("'a.x + bar'") && said.contains("          ^^^"), "{said}");
+    let many: String =
+        (0..5000).map(|number| body(&format!("b{number}"), &format!("b{}.x", number + 1))).collect();
+    let said = report(&(many + &body("b5000", "t")));
+    assert!(said.contains("more than 50 bodies follow one after the other"), "{said}");
     // Each formula names the one before twice.
     let mut text = body("a0", "sin(t)");
     for number in 1..20 {

@@ -149,7 +149,7 @@ fn each_measure_has_one_value_in_labels_plots_and_tables() {
     let lights = plan.lights(&last);
     for (number, name) in names.iter().enumerate() {
         let (_, rest) = script.split_once(&format!("#declare V{number} = ")).unwrap();
-        let filled: f64 = rest.split(';').next().unwrap().parse().unwrap();
+        let filled: f64 = rest.split(';').next().unwrap().trim().parse().unwrap();
         let off = (filled - said(number)).abs();
         assert!(off < 1e-9, "{name}: {filled} in SDL, {} in the label", said(number));
         let off = (lights[number].location.x - said(number)).abs();

@@ -8,7 +8,7 @@ use super::motion::{NodePose, Recorder, SampledMotion};
 use crate::export::ExportError;
 use crate::picture::{Lamp, Lens, Placed, PlacedLight, Plan, Stage};
 use crate::scene::{Body, LookAspect, Output, Visibility};
-use crate::simulate::{Recorded, Selection};
+use crate::simulate::{Frame, Recorded, Selection};
 
 /// The widest angle of view in the file, degrees. glTF does not allow 180 degrees.
 const WIDEST: f64 = 179.9;
@@ -48,6 +48,7 @@ impl CamerasAndLights {
         if plans.iter().any(Plan::camera_moves) {
             for exposure in run.exposures(selection) {
                 let frame = exposure?.frame;
+                known(&plans, &frame)?;
                 let placed = plans.iter().map(|plan| plan.camera(&frame)).collect();
                 see(frame.time, placed, motion, &mut ways)?;
             }
@@ -60,6 +61,14 @@ impl CamerasAndLights {
         let lights = lights(run, &plans[0], selection, motion)?;
         let (looks, sizes) = looks(run, &plans[0], selection)?;
         Ok(CamerasAndLights { cameras, lights, stage, looks, sizes })
+    }
+}
+
+/// Returns an error if a camera or a light follows a value that is unknown in a frame.
+fn known(plans: &[Plan], frame: &Frame) -> Result<(), ExportError> {
+    match plans.iter().find_map(|plan| plan.lost(frame)) {
+        Some(what) => Err(ExportError::NoValue { what, time: frame.time }),
+        None => Ok(()),
     }
 }
 
@@ -163,7 +172,10 @@ fn lights(
     let first = first.map_or(0.0, |frame| timeline.time(frame));
     let mut exposures = if plan.lights_move() { Some(run.exposures(selection)) } else { None };
     let mut shining = match exposures.as_mut().and_then(Iterator::next).transpose()? {
-        Some(exposure) => plan.lights(&exposure.frame),
+        Some(exposure) => {
+            known(std::slice::from_ref(plan), &exposure.frame)?;
+            plan.lights(&exposure.frame)
+        }
         None => plan.lights_at_start(),
     };
     if shining.is_empty() {
@@ -185,6 +197,7 @@ fn lights(
     ways.add(poses(&shining).into_iter(), first, name, &mut motion.budget)?;
     for exposure in exposures.into_iter().flatten() {
         let frame = exposure?.frame;
+        known(std::slice::from_ref(plan), &frame)?;
         ways.add(poses(&plan.lights(&frame)).into_iter(), frame.time, name, &mut motion.budget)?;
     }
     motion.append(ways);

@@ -235,9 +235,9 @@ impl Plan {
         self.lights.at_start()
     }
 
-    /// The value of a formula of measures in a frame. NaN if a measure is unknown then.
-    pub fn value(&self, formula: &MeasureFormula, frame: &Frame) -> f64 {
-        self.followed.at(frame)(formula)
+    /// The values of formulas of measures in a frame. NaN if a measure is unknown then.
+    pub fn values<'a>(&'a self, frame: &'a Frame) -> impl Fn(&MeasureFormula) -> f64 + 'a {
+        self.followed.at(frame)
     }
 
     /// The default lights, which never move.

@@ -127,7 +127,11 @@ fn camera(tables: &[Keys<'_>], known: Known<'_, '_>, context: &mut Context<'_>) 
         }
         let is_along =
             up.is_some_and(|up| up.cross(look_at - location).length() <= 1e-6 * location.distance(look_at));
-        if let Some(span) = tables[0].span(&camera::UP).filter(|_| is_along && !near) {
+        let is_own = [&camera::UP.spec, &camera::LOCATION.spec, &camera::LOOK_AT.spec]
+            .iter()
+            .any(|key| tables[0].has(*key));
+        let span = tables.iter().find_map(|keys| keys.span(&camera::UP));
+        if let Some(span) = span.filter(|_| is_along && is_own && !near) {
             let error = Diagnostic::error(Code::CameraAtLookAt, "the camera looks along its `up`");
             let help = "give a direction across the line of sight, such as that of the picture's upper edge";
             context.diagnostics.push(error.at(span, "needs another direction").help(help));

@@ -9,7 +9,7 @@ use super::{Context, asset, suggest};
 use crate::diagnostic::{Code, Diagnostic, Sources, Span};
 use crate::scene::expand::in_string;
 use crate::scene::grammar::scene::{povray, scene};
-use crate::scene::sdl::{INCLUDES, WRITING_INCLUDES};
+use crate::scene::sdl::{INCLUDES, Token, Tokens, WRITING_INCLUDES};
 use crate::scene::source::{Node, file};
 use crate::scene::{Include, PovRay, SdlPiece};
 
@@ -111,11 +111,12 @@ fn values(text: &str) -> impl Iterator<Item = Range<usize>> {
     })
 }
 
-/// Returns SDL in which each value `${…}` is replaced by a number of the same length, as POV-Ray will read it.
+/// Returns SDL in which each value `${…}` is replaced by a number of the same length, between blanks. In scripts, values stand between blanks,
+/// too, so they never become part of a word or of another number.
 pub(super) fn with_numbers(text: &str) -> String {
     let mut filled = text.to_owned();
     for value in values(text) {
-        filled.replace_range(value.clone(), &format!("{:<1$}", "0", value.len()));
+        filled.replace_range(value.clone(), &format!("{:<1$}", " 0", value.len()));
     }
     filled
 }
@@ -123,6 +124,10 @@ pub(super) fn with_numbers(text: &str) -> String {
 /// Splits the scene's SDL into code that is the same in all scripts and values that change from frame to frame.
 fn pieces((text, span): (&str, Span), known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<SdlPiece> {
     let code = |range: Range<usize>| SdlPiece::Sdl(text[range].to_owned());
+    let filled = with_numbers(text);
+    let strings: Vec<Range<usize>> = Tokens::of(&filled)
+        .filter_map(|(token, range)| matches!(token, Token::Text(_)).then_some(range))
+        .collect();
     let mut pieces = Vec::new();
     let mut end = 0;
     for value in values(text) {
@@ -133,6 +138,12 @@ fn pieces((text, span): (&str, Span), known: Known<'_, '_>, context: &mut Contex
             let error = Diagnostic::error(Code::ValueInSdl, "this value has no end");
             reader.report(error, value.start..value.start + 2, "needs a `}`");
             break;
+        }
+        if strings.iter().any(|string| string.start < value.end && value.start < string.end) {
+            let error = Diagnostic::error(Code::ValueInSdl, "a value cannot stand within a string");
+            let help = "POV-Ray makes a string of a number: `concat(\"t = \", str(${t}, 0, 2))`";
+            reader.report(error.help(help), value.clone(), "a number");
+            continue;
         }
         let inner = value.start + 2..value.end - 1;
         let formula = reader.formula_with_unit(inner.clone());

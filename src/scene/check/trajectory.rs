@@ -18,6 +18,7 @@ use super::Context;
 use super::read::figure;
 use crate::diagnostic::{Code, Diagnostic, Span, nearest};
 use crate::physics::Keyframe;
+use crate::scene::ColumnUnit;
 use crate::scene::grammar::quoted;
 use crate::scene::source::file;
 use crate::scene::units;
@@ -31,8 +32,8 @@ pub(super) struct Recording {
     pub(super) rows: HashMap<Option<String>, Vec<Keyframe>>,
     /// The distinct times of all rows, in ascending order, s.
     pub(super) times: Vec<f64>,
-    /// The further columns that the scene may name, each with its name and the symbol of its unit.
-    pub(super) further: Vec<(String, &'static str)>,
+    /// The further columns that the scene may name, each with its name and its unit.
+    pub(super) further: Vec<(String, ColumnUnit)>,
     /// The values in these columns in each row, grouped by the name of the body as the rows are. NaN where the file has no number.
     pub(super) values: HashMap<Option<String>, Vec<Vec<f64>>>,
     /// Whether the file has columns for the orientation.

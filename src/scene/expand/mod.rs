@@ -64,7 +64,7 @@ pub(super) fn expand(
         variable_spans: HashMap::new(),
         reported: HashSet::new(),
         unit: "",
-        guided: GuidedBodies::of(root),
+        guided: GuidedBodies::default(),
         of_bodies: Vec::new(),
         warned: HashSet::new(),
         diagnostics,
@@ -81,6 +81,7 @@ pub(super) fn expand(
         expander.variables(table);
     }
     expander.defaults(root);
+    expander.guided = GuidedBodies::of(root);
     if let Some(Value::Table(bodies)) = root.get_mut("body").map(|entry| &mut entry.node.value)
         && let Some(Kind::Named(spec)) = SCENE.key("body").map(|key| &key.kind)
     {

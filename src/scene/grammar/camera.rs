@@ -52,7 +52,7 @@ table! {
         "tracking",
         "following",
     ]),
-    ORBIT: Any = KeySpec::new("orbit", Table(&orbit::TABLE), "Circles around `look_at`, about the vertical")
+    ORBIT: Any = KeySpec::new("orbit", Table(&orbit::TABLE), "Circles around `look_at`, about `up`")
         .default("none")
         .also(&["rotate", "turntable"]),
     ANGLE: value::Varying = KeySpec::new(

@@ -12,7 +12,7 @@ use super::columns::{
 use super::fields::Fields;
 use crate::diagnostic::Code;
 use crate::physics::Keyframe;
-use crate::scene::units;
+use crate::scene::{ColumnUnit, units};
 
 /// A mistake in a trajectory file, before its position is turned into a source span.
 pub(super) struct Wrong {
@@ -71,7 +71,7 @@ impl<'a> Reader<'a> {
         let further = further(&header, &used, is_named);
         let mut recording = Recording {
             is_turned: orientation.is_some(),
-            further: further.iter().map(|(_, name, (unit, _))| (name.clone(), *unit)).collect(),
+            further: further.iter().map(|(_, name, (unit, _))| (name.clone(), unit.clone())).collect(),
             ..Recording::default()
         };
         let mut record = StringRecord::new();
@@ -120,7 +120,7 @@ impl<'a> Reader<'a> {
                 continue;
             }
             values.extend((!further.is_empty()).then(|| {
-                let value = |(column, _, (_, factor)): &(usize, String, (&str, f64))| {
+                let value = |(column, _, (_, factor)): &(usize, String, (ColumnUnit, f64))| {
                     let field = record.get(*column).and_then(|field| field.parse::<f64>().ok());
                     field.filter(|value| value.is_finite()).map_or(f64::NAN, |value| value * factor)
                 };
@@ -193,19 +193,26 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Returns the columns of a header that are not used, and whose names `is_named` accepts: the index of each, its name, and its unit in SI with the
-/// factor that converts to it. A column with an unknown unit has none.
+/// Returns the columns of a header that are not used, and whose names `is_named` accepts: the index of each, its name, and its unit with the
+/// factor that converts to SI.
 fn further(
     header: &StringRecord,
     used: &[usize],
     is_named: &dyn Fn(&str) -> bool,
-) -> Vec<(usize, String, (&'static str, f64))> {
+) -> Vec<(usize, String, (ColumnUnit, f64))> {
     let others = header.iter().enumerate().filter(|(column, _)| !used.contains(column));
     let named = others.filter_map(|(column, field)| {
         let (name, unit) = unit_of(field);
         let is_name = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
             && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-        (is_name && is_named(name)).then(|| (column, name.to_owned(), units::si(unit).unwrap_or(("", 1.0))))
+        let converted = || match units::si(unit) {
+            Some((si, factor)) => (ColumnUnit { si, unknown: None }, factor),
+            None => {
+                let unknown = Some(unit.to_owned()).filter(|unit| !unit.is_empty());
+                (ColumnUnit { si: "", unknown }, 1.0)
+            }
+        };
+        (is_name && is_named(name)).then(|| (column, name.to_owned(), converted()))
     });
     named.collect()
 }
