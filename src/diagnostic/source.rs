@@ -59,7 +59,7 @@ impl Sources {
     }
 
     /// Returns whether a word stands in one of the texts.
-    pub fn mentions(&self, word: &str) -> bool {
+    pub(crate) fn mentions(&self, word: &str) -> bool {
         let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
         let stands_in = |text: &str| {
             text.match_indices(word).any(|(at, _)| {
