@@ -202,7 +202,7 @@ impl Plan {
     pub(crate) fn lost(&self, frame: &Frame) -> Option<String> {
         let is_lost = |camera: &Placed| {
             let has_angle = !matches!(camera.lens(), Lens::Perspective { angle } if !angle.is_finite());
-            let has_sky = camera.sky().is_none_or(|sky| sky.is_finite());
+            let has_sky = camera.sky().is_none_or(glam::DVec3::is_finite);
             !has_angle || !has_sky || !camera.location().is_finite() || !camera.look_at().is_finite()
         };
         if self.camera_moves() && is_lost(&self.camera(frame)) {
