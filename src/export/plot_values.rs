@@ -43,7 +43,8 @@ pub(super) fn write(
         };
         for value in across.into_iter().chain(values) {
             if value.is_finite() {
-                table.numbers(&[value])?;
+                // Zero has no sign in a table for people.
+                table.numbers(&[value + 0.0])?;
             } else {
                 table.text("")?;
             }

@@ -278,3 +278,33 @@ fn values_that_have_no_place_on_a_logarithmic_axis() {
     assert_eq!(of_plots(&plot("ball.vy", "log = 'x'")), [""; 0]);
     assert_eq!(of_plots(&plot("ball.vy", "log = false")), [""; 0]);
 }
+
+/// Arrows need a macro, also if a force has the only one.
+#[test]
+fn the_only_arrow_of_a_scene_finds_its_macro() {
+    for arrow in [
+        "[force.air.drag]\nlinear = 0.3\narrow = true",
+        "[force.air.drag]\nlinear = 0.3\n[joint.r.rod]\nbetween = [[0, 1, 0], 'b']\narrows.force = true",
+        "[force.air.drag]\nlinear = 0.3\n[body.c]\nshape.sphere.radius = 1\narrows.velocity = true",
+    ] {
+        let text = format!(
+            "simulation.duration = 1\n[body.b]\nshape.sphere.radius = 0.1\nvelocity = [1, 1, 0]\n{arrow}"
+        );
+        let scene = Scene::parse(&text).unwrap();
+        let run = Run::new(&scene).unwrap();
+        let script = run.emitter().script(&run.frames().next().unwrap().unwrap()).unwrap();
+        assert!(script.contains("#macro Arrow("), "{arrow}");
+    }
+}
+
+/// Nobody asked for what is turned off.
+#[test]
+fn what_is_turned_off_has_no_missing_effect() {
+    let scene = Scene::parse(
+        "simulation.duration = 1\n[defaults.body]\narrows.velocity = true
+        [body.b]\nshape.sphere.radius = 0.1\nvelocity = [1, 1, 0]
+        [body.wall]\nshape.box.size = [1, 1, 1]\nlocation = [0, -5, 0]\nfixed = true\narrows.velocity = false",
+    )
+    .unwrap();
+    assert!(scene.warnings.diagnostics.is_empty(), "{}", scene.warnings);
+}

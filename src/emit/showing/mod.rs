@@ -36,7 +36,7 @@ pub(super) struct Showing {
 /// The POV-Ray macros that a scene needs, as values for templates.
 #[derive(Serialize)]
 pub(super) struct NeededMacros {
-    /// True if bodies, joints or fields have arrows.
+    /// True if bodies, joints, forces or fields have arrows.
     arrows: bool,
     /// True if the pictures contain areas.
     areas: bool,
@@ -66,6 +66,7 @@ impl NeededMacros {
         NeededMacros {
             arrows: scene.bodies.iter().any(|body| body.showing.has_arrows())
                 || scene.joints.iter().any(|joint| joint.arrows.iter().any(Option::is_some))
+                || scene.forces.iter().any(|force| force.arrow.is_some())
                 || !scene.fields.is_empty(),
             areas: !scene.areas.is_empty() || scene.forces.iter().any(|force| has_surface(&force.kind)),
             coils: scene.forces.iter().any(|force| is_wound(&force.kind)),

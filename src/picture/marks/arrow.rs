@@ -10,6 +10,8 @@ use crate::simulate::{Frame, direction};
 
 /// The radius of a component's shaft, relative to that of its arrow.
 const COMPONENT_RADIUS: f64 = 0.7;
+/// The length below which an arrow is too short for a text, relative to the width of a clearly visible line.
+const SHORTEST_NAMED: f64 = 3.0;
 /// The length below which a component is omitted, relative to its arrow.
 const MIN_COMPONENT: f64 = 1e-3;
 
@@ -64,7 +66,11 @@ impl ArrowMarks {
 impl Named {
     fn draw<'a>(&'a self, arrow: &Arrow, of: &Arrows, frame: &Frame, stroke: f64, sketch: &mut Sketch<'a>) {
         let mut note = |number: u8, arrow: &Arrow, text: &'a [Piece]| {
-            let away = (arrow.to - arrow.from).normalize_or_zero();
+            let way = arrow.to - arrow.from;
+            if way.length() < SHORTEST_NAMED * stroke {
+                return;
+            }
+            let away = way.normalize_or_zero();
             let Arrow { to: at, color, .. } = *arrow;
             let (name, says, sides) = (&self.name, Says::Text(text), Sides::Wanted);
             sketch.notes.push(Note { name, number, says, at, away, sides, color });

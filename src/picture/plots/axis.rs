@@ -182,11 +182,12 @@ impl Axis {
         }
     }
 
-    /// Returns a name with the unit of the axis. A name that ends with its own unit, such as `r (m)`, gets only the power of ten, if there is one.
+    /// Returns a name with the unit of the axis. A name that ends with its own unit, such as `r (m)` or `r in m`, gets only the power of ten, if there is one.
     pub(super) fn named(&self, name: &str, symbol: &str) -> String {
         let before_unit = name.strip_suffix(')').and_then(|name| name.rsplit_once(" ("));
         // In `2 * (a + b)`, the parentheses hold no unit.
-        let has_unit = before_unit.is_some_and(|(before, _)| !before.ends_with(['+', '-', '*', '/', '^']));
+        let has_unit = before_unit.is_some_and(|(before, _)| !before.ends_with(['+', '-', '*', '/', '^']))
+            || !symbol.is_empty() && name.strip_suffix(symbol).is_some_and(|before| before.ends_with(" in "));
         match (self.unit(if has_unit { "" } else { symbol }), has_unit) {
             (unit, _) if unit.is_empty() => name.to_owned(),
             (power, true) => format!("{name} {power}"),

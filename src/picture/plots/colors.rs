@@ -5,12 +5,11 @@ use crate::scene::{Color, Plot, PlotKind, Scene};
 
 /// The colors of the curves or bars: that of the scene, that of the only body in a formula or of the first body of a histogram, or else one of a palette whose colors can be told apart.
 pub(super) fn of_curves(scene: &Scene, plot: &Plot, dark: bool) -> Vec<Color> {
-    let mut free = Color::OF_CURVES.into_iter().cycle();
-    let mut colors: Vec<Color> = Vec::new();
     let are_alike = plot.kind == PlotKind::Bars { are_copies: true };
+    let mut colors: Vec<Option<Color>> = Vec::new();
     for curve in &plot.curves {
-        if let Some(color) = curve.color.or_else(|| colors.first().copied().filter(|_| are_alike)) {
-            colors.push(color);
+        if let Some(color) = curve.color.or_else(|| colors.first().copied().flatten().filter(|_| are_alike)) {
+            colors.push(Some(color));
             continue;
         }
         let first = match &plot.kind {
@@ -21,18 +20,33 @@ pub(super) fn of_curves(scene: &Scene, plot: &Plot, dark: bool) -> Vec<Color> {
         let own = material.and_then(|material| scene.materials[material].look.color());
         let own = own.map(|color| seen(color, dark)).filter(|own| {
             let is_legible = dark || own.linear().iter().sum::<f64>() < 1.5;
-            is_legible && colors.iter().all(|other| difference(*own, *other) > 0.3)
+            is_legible && colors.iter().flatten().all(|other| difference(*own, *other) > 0.3)
         });
-        let color = own.or_else(|| {
-            let mut palette = free
-                .by_ref()
-                .take(Color::OF_CURVES.len())
-                .map(|color| if dark { mixed(color, Color::WHITE, 0.25) } else { color });
-            palette.find(|color| colors.iter().all(|other| difference(*color, *other) > 0.1))
-        });
-        colors.push(color.unwrap_or(Color::OF_CURVES[0]));
+        colors.push(own);
+        if are_alike && own.is_none() {
+            colors = vec![Some(Color::OF_CURVES[0])];
+        }
     }
-    colors
+    let given: Vec<Color> = colors.iter().flatten().copied().collect();
+    let mut chosen: Vec<Color> = Vec::new();
+    let mut free = || {
+        let palette =
+            Color::OF_CURVES.map(|color| if dark { mixed(color, Color::WHITE, 0.25) } else { color });
+        let from = |others: &[Color], color: Color| {
+            others.iter().map(|other| difference(color, *other)).fold(f64::INFINITY, f64::min)
+        };
+        // The colors of the palette can be told apart from each other, and the first ones best.
+        let is_free = |color: &&Color| from(&given, **color) > 0.4 && from(&chosen, **color) > 0.1;
+        let nearest = |color: &Color| from(&given, *color).min(from(&chosen, *color));
+        let best = palette
+            .iter()
+            .find(is_free)
+            .or_else(|| palette.iter().max_by(|one, other| nearest(one).total_cmp(&nearest(other))));
+        let color = best.copied().unwrap_or(palette[0]);
+        chosen.push(color);
+        color
+    };
+    colors.into_iter().map(|color| color.unwrap_or_else(&mut free)).collect()
 }
 
 /// The distance of two colors in sRGB.

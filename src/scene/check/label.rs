@@ -129,8 +129,9 @@ pub(super) fn pieces(
 ) -> Vec<Piece> {
     let mut reader = Reader::new("label", (text, span), root, own, things, context);
     if text.len() > MAX_LENGTH {
-        let message = format!("a label has at most {MAX_LENGTH} bytes");
-        reader.report(Diagnostic::error(Code::LabelSyntax, message), 0..0, "");
+        let message = format!("this label has {} bytes, and a label has at most {MAX_LENGTH}", text.len());
+        let error = Diagnostic::error(Code::LabelSyntax, message);
+        reader.report(error.help("write two labels, one below the other"), 0..0, "");
         return Vec::new();
     }
     let mut pieces = Vec::new();

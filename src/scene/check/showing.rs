@@ -52,7 +52,13 @@ pub(super) fn of_body(
         loads_without_cause(name, &view.table(&body::ARROWS), &showing, simulation, context);
     }
     if let Some((keys, why)) = useless {
-        for key in keys {
+        let is_asked = |key: &KeySpec| match key.name {
+            name if name == body::ARROWS.spec.name => showing.has_arrows(),
+            name if name == body::AXES.spec.name => showing.axes.is_some(),
+            name if name == body::GHOSTS.spec.name => view.variant(&body::GHOSTS).is_some(),
+            _ => showing.trail.is_some(),
+        };
+        for key in keys.iter().filter(|key| is_asked(key)) {
             let message = format!("`{}` of `{name}` has no effect", key.name);
             let warning = Diagnostic::warning(Code::NoEffect, message);
             context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
