@@ -349,7 +349,7 @@ fn names_stand_at_the_ends_of_curves() {
 #[test]
 fn the_arrow_of_a_force_shows_this_force_alone() {
     let keys = "mass = 2\narrows.force.scale = 0.1
-        [force.air.drag]\nlinear = 0.5\narrow = { scale = 0.1, label = \"R = ${force.air.size:.3}\" }
+        [force.air.drag]\nlinear = 0.5\narrow = { scale = 2, label = \"R = ${force.air.size:.3}\" }
         [force.pull.spring]\nbetween = [\"ball\", [0, 9, 0]]\nstiffness = 3";
     let (plan, frame) = plan(keys);
     let ball = frame.bodies[0];
@@ -357,7 +357,7 @@ fn the_arrow_of_a_force_shows_this_force_alone() {
     let [_, air] = arrows[..] else { panic!("two are asked for: {arrows:?}") };
     assert_eq!((air.owner, air.body, air.quantity), (ArrowOwner::Force(0), Some(0), Quantity::NamedForce));
     let drag = -0.5 * ball.velocity;
-    assert!((air.to - air.from).abs_diff_eq(0.1 * drag, 1e-12), "{air:?}");
+    assert!((air.to - air.from).abs_diff_eq(2.0 * drag, 1e-12), "{air:?}");
     assert!(plan.marks(&frame).iter().any(|thing| thing.name == "air, force"));
     let texts = plan.texts(&frame);
     assert_eq!(texts[0].says, format!("R = {:.3}", drag.length()), "{texts:?}");
