@@ -84,7 +84,7 @@ use self::stage::StageText;
 use self::templates::Templates;
 use self::unit::Unit;
 use self::values::FrameConstants;
-use crate::picture::{Plan, number};
+use crate::picture::{Lost, Plan, number};
 use crate::scene::{Camera, Layout, Scene, SdlPiece, Shutter};
 use crate::simulate::{Frame, Survey};
 
@@ -110,8 +110,6 @@ pub struct Emitter {
     plan: Plan,
     /// The scene's own SDL, if values in it change from frame to frame. Otherwise it is in the shared part.
     sdl: Vec<SdlPiece>,
-    /// True if a camera or a light follows measures.
-    follows_measures: bool,
     unit: Unit,
     style: Style,
     /// The names of the bodies, by index in the scene.
@@ -159,7 +157,6 @@ impl Emitter {
             } else {
                 Vec::new()
             },
-            follows_measures: scene.stage_follows_measures(),
             unit,
             style,
             names: scene.bodies.iter().map(|body| body.name.clone()).collect(),
@@ -193,9 +190,9 @@ impl Emitter {
     /// at, a value in the scene's own SDL is unknown, or a template fails.
     pub fn script(&self, frame: &Frame) -> Result<String, EmitError> {
         let out_of_range = |what: String| EmitError::OutOfRange { what, time: frame.time };
-        if let Some(what) = self.plan.lost(frame) {
+        if let Some(Lost { what, follows_measures }) = self.plan.lost(frame) {
             let time = frame.time;
-            return Err(if self.follows_measures {
+            return Err(if follows_measures {
                 EmitError::NoValue { what, time }
             } else {
                 out_of_range(what)

@@ -250,6 +250,11 @@ impl MovingCamera {
         &self.placed
     }
 
+    /// True if the camera follows measures.
+    pub(super) fn follows_measures(&self) -> bool {
+        self.moving.as_ref().is_some_and(|moving| moving.camera.formulas().next().is_some())
+    }
+
     /// True if the camera moves.
     pub(super) fn moves(&self) -> bool {
         self.moving.is_some()

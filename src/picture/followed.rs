@@ -9,14 +9,17 @@ use crate::simulate::{Frame, Measures, MomentState, Survey};
 #[derive(Clone, Debug)]
 pub(super) struct FollowedValues {
     measures: Arc<Measures>,
-    /// The first frame. `None` if no camera and no light follows measures.
+    /// The first frame. `None` if the survey keeps no sample of the frames.
     first: Option<Arc<Frame>>,
 }
 
 impl FollowedValues {
     /// Creates the values of a run.
     pub(super) fn new(scene: &Scene, survey: &Survey) -> FollowedValues {
-        FollowedValues { measures: Arc::new(Measures::new(scene)), first: survey.first.clone() }
+        FollowedValues {
+            measures: Arc::new(Measures::new(scene)),
+            first: survey.samples.first().cloned().map(Arc::new),
+        }
     }
 
     /// The measures of the scene.

@@ -164,6 +164,11 @@ impl Lights {
         self.lights.iter().any(Light::moves)
     }
 
+    /// True if a light, given by its index in the scene, follows measures.
+    pub(super) fn follows_measures(&self, number: usize) -> bool {
+        self.lights[number].formulas().next().is_some()
+    }
+
     /// The lights in a frame.
     pub(super) fn at(&self, frame: &Frame) -> Vec<PlacedLight> {
         let value = self.followed.at(frame);

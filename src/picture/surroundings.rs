@@ -24,8 +24,8 @@ const COSTS_OF_LEAVING: [f64; 2] = [1.5, 0.6];
 /// The cost of another favored place than in the frame before in the sample, and the additional cost for each height of a line between the
 /// two places.
 const COSTS_OF_CHANGE: [f64; 2] = [2.0, 0.5];
-/// The number of frames of the sample before and after a change over which a text glides.
-const GLIDE: f64 = 2.0;
+/// How long a text glides before and after a change of its place, in frames of the sample.
+const FRAMES_OF_GLIDE: f64 = 2.0;
 
 /// A text that has several possible places.
 pub(super) struct Movable<'a> {
@@ -195,7 +195,7 @@ impl Favored {
             Some(end) => (next - 1) as f64 + (time - self.times[next - 1]) / (end - self.times[next - 1]),
             None => (next - 1) as f64,
         };
-        let weight = |number: usize| 1.0 - (number as f64 - here).abs() / GLIDE;
+        let weight = |number: usize| 1.0 - (number as f64 - here).abs() / FRAMES_OF_GLIDE;
         let weighted = places.iter().enumerate().map(|(number, place)| Some(((*place)?, weight(number))));
         weighted.flatten().filter(|(_, weight)| *weight > 0.0).collect()
     }
@@ -356,7 +356,7 @@ mod tests {
         let mut around = in_run(|_| false);
         around.places.insert(Key::Label(1), vec![None, Some(3), Some(3), Some(4)]);
         around.times.truncate(4);
-        assert_eq!(around.at(&Key::Label(1), 0.0), [(3, 1.0 - 1.0 / GLIDE)]);
+        assert_eq!(around.at(&Key::Label(1), 0.0), [(3, 1.0 - 1.0 / FRAMES_OF_GLIDE)]);
         assert_eq!(around.at(&Key::Label(1), 9.0).last(), Some(&(4, 1.0)), "after the last frame");
         assert_eq!(around.at(&Key::Label(2), 0.0), []);
     }

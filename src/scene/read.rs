@@ -135,35 +135,35 @@ pub(super) fn drawn(node: &Node, bound: Bound) -> Result<Drawn, Diagnostic> {
     }
 }
 
-/// A number, a formula of the time, or the text of a formula of measures, which the names of the scene's things give a meaning.
+/// A number, a formula of the time, or the text of a formula of measures. The names in that text are not resolved yet.
 #[derive(Clone, Debug)]
-pub(in crate::scene) enum Written<'a> {
+pub(in crate::scene) enum UncheckedVarying<'a> {
     Timed(Timed),
     Measured(&'a str, Span),
 }
 
 /// Reads a number within a bound, or a formula of the time and of measures. Does not check the values of a formula.
-pub(super) fn varying(node: &Node, bound: Bound) -> Result<Written<'_>, Diagnostic> {
+pub(super) fn varying(node: &Node, bound: Bound) -> Result<UncheckedVarying<'_>, Diagnostic> {
     match &node.value {
-        Value::String(text) => Ok(Written::Measured(text, node.span)),
-        Value::Formula(formula) => Ok(Written::Timed(Timed::Formula(formula.clone()))),
+        Value::String(text) => Ok(UncheckedVarying::Measured(text, node.span)),
+        Value::Formula(formula) => Ok(UncheckedVarying::Timed(Timed::Formula(formula.clone()))),
         Value::Integer(_) | Value::Float(_) => {
-            number(node, bound).map(|number| Written::Timed(Timed::Constant(number)))
+            number(node, bound).map(|number| UncheckedVarying::Timed(Timed::Constant(number)))
         }
         // The formula of the time has been reported. Formulas of measures beside it are still read.
-        Value::Invalid => Ok(Written::Timed(Timed::Constant(f64::NAN))),
+        Value::Invalid => Ok(UncheckedVarying::Timed(Timed::Constant(f64::NAN))),
         _ => Err(wrong_type(node, &Kind::Varying(bound))),
     }
 }
 
 /// Reads a list of three items: numbers within a bound, or formulas of the time and of measures. Returns one error for each wrong item.
-pub(super) fn varying_point(node: &Node, bound: Bound) -> Result<[Written<'_>; 3], Vec<Diagnostic>> {
+pub(super) fn varying_point(node: &Node, bound: Bound) -> Result<[UncheckedVarying<'_>; 3], Vec<Diagnostic>> {
     let items = items(node, &Kind::VaryingNumbers(3, bound), 3, 3).map_err(|error| vec![error])?;
     let mut errors = Vec::new();
     let mut read = |item| {
         varying(item, bound).unwrap_or_else(|error| {
             errors.push(error);
-            Written::Timed(Timed::Constant(0.0))
+            UncheckedVarying::Timed(Timed::Constant(0.0))
         })
     };
     let point = [read(&items[0]), read(&items[1]), read(&items[2])];

@@ -103,9 +103,9 @@ value!(Timed => timed::Timed, Timed, |node, Kind::Timed(bound)| read::timed(node
     |given| given.number().map(timed::Timed::Constant));
 value!(TimedVector => timed::TimedVector, TimedVector,
     |node, Kind::TimedNumbers(_, bound)| read::timed_vector(node, *bound).ok(), |_given| None);
-value!(Varying => read::Written<'a>, Varying, |node, Kind::Varying(bound)| read::varying(node, *bound).ok(),
-    |given| given.number().map(|number| read::Written::Timed(timed::Timed::Constant(number))));
-value!(VaryingPoint => [read::Written<'a>; 3], VaryingPoint,
+value!(Varying => read::UncheckedVarying<'a>, Varying, |node, Kind::Varying(bound)| read::varying(node, *bound).ok(),
+    |given| given.number().map(|number| read::UncheckedVarying::Timed(timed::Timed::Constant(number))));
+value!(VaryingPoint => [read::UncheckedVarying<'a>; 3], VaryingPoint,
     |node, Kind::VaryingNumbers(_, bound)| read::varying_point(node, *bound).ok(), |_given| None);
 value!(Drawn => drawn::Drawn, Drawn, |node, Kind::Drawn(bound)| read::drawn(node, *bound).ok(),
     |given| given.number().map(drawn::Drawn::Constant));

@@ -12,8 +12,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::births::Births;
 use super::build::{forces, forces_of};
+use super::populations::Population;
 use super::simulation::Entry;
 use super::tallies::SoFar;
 use super::{AngleNow, DistanceNow, Frame, Ghost, ImpactCounts, shown};
@@ -142,7 +142,7 @@ pub struct Measures {
     /// The coordinates of hinges and sliders, indexed by joint. `None` for other joints.
     joints: Vec<Option<Coordinate>>,
     aggregates: Vec<Aggregate>,
-    emitters: Vec<Births>,
+    emitters: Vec<Population>,
     file_columns: FileColumns,
     /// The forces that measures show, by their indices in the scene.
     forces: BTreeMap<usize, ShownForces>,
@@ -169,7 +169,7 @@ impl Measures {
             distances: scene.distances.clone(),
             aggregates: scene.aggregates.clone(),
             file_columns: scene.file_columns.clone(),
-            emitters: scene.emitters.iter().map(|emitter| Births::new(scene, emitter)).collect(),
+            emitters: scene.emitters.iter().map(|emitter| Population::new(scene, emitter)).collect(),
             forces: shown.chain(with_arrows).collect(),
             all_forces: ShownForces(if shows_potential { forces_of(scene).collect() } else { Vec::new() }),
         }

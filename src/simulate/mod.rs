@@ -64,7 +64,6 @@
 //! The total number of pair interactions of a run is computed beforehand (`workload.rs`), so that the progress bar can move within a frame.
 
 mod approaches;
-mod births;
 mod build;
 mod diagnose;
 mod diverged;
@@ -83,6 +82,7 @@ mod moments;
 mod overlap;
 mod particles;
 mod past;
+mod populations;
 mod reach;
 mod record;
 mod recording;

@@ -13,8 +13,6 @@ mod stretched;
 #[cfg(test)]
 mod tests;
 
-use std::sync::Arc;
-
 use arrows::Arrows;
 pub use corrected::Corrected;
 pub use crossing::Crossing;
@@ -34,7 +32,7 @@ use super::requested_sizes::RequestedSizes;
 use super::span::{ArrowNow, Spans};
 use super::tallies::Tallies;
 use super::{
-    Bounds, EnergyError, EnergyScale, Frame, Frames, Measures, MomentState, Past, SimulateError, Span, world,
+    Bounds, EnergyError, EnergyScale, Frame, Frames, Measures, MomentState, SimulateError, Span, world,
 };
 use crate::physics::{BodySnapshot, LawResidual};
 use crate::scene::Scene;
@@ -71,8 +69,6 @@ pub struct Survey {
     pub laws: Vec<LawResidual>,
     /// The joint that gives way most under time-stepping. `None` if all joints hold well.
     pub stretched: Option<StretchedJoint>,
-    /// The first frame, without particles, and of its past only what measures need. `None` unless a camera or a light follows measures.
-    pub first: Option<Arc<Frame>>,
     /// The points of each curve of all plots, in the order of the scene. In long runs, only the points with the lowest and the highest
     /// values of neighboring frames.
     pub curves: Vec<Vec<CurvePoint>>,
@@ -154,7 +150,6 @@ pub struct Surveyor<'a> {
     /// A selection of the particles, to estimate the space of all.
     clouds: Clouds,
     corrected: Option<Corrected>,
-    first: Option<Arc<Frame>>,
     requested: RequestedSizes,
     arrows: Arrows<'a>,
     measures: Measures,
@@ -196,7 +191,6 @@ impl<'a> Surveyor<'a> {
             overlaps: Watch::new(scene),
             clouds: Clouds::thinned(scene, SOME_PARTICLES),
             corrected: None,
-            first: None,
             requested: RequestedSizes::new(scene),
             arrows: Arrows::new(scene),
             measures: Measures::new(scene),
@@ -239,11 +233,7 @@ impl<'a> Surveyor<'a> {
             vector: load.vector,
         });
         self.tallies.note(frame);
-        if frame.index == 0 && scene.stage_follows_measures() {
-            let (areas, closest) = self.tallies.clone().finish();
-            let past = Past { areas, closest, ..Past::default() };
-            self.first = Some(Arc::new(Frame { past, particles: Vec::new(), ..frame.clone() }));
-        }
+        self.samples.see(frame, self.tallies.so_far());
         let moment = MomentState::with_past(frame, self.tallies.so_far());
         let of_forces = self.arrows.of_forces(frame, &moment, &self.measures);
         self.requested.see_forces(&of_forces);
@@ -276,7 +266,6 @@ impl<'a> Surveyor<'a> {
         self.curves.see(&moment, &self.measures);
         self.ranges.see(&moment, &self.measures);
         self.spreads.see(&moment, &self.measures, frame.index);
-        self.samples.see(frame);
     }
 
     /// Returns the survey after the last frame.
@@ -289,7 +278,6 @@ impl<'a> Surveyor<'a> {
             overlaps,
             clouds,
             corrected,
-            first,
             requested,
             contacts,
             laws,
@@ -315,7 +303,6 @@ impl<'a> Surveyor<'a> {
             fall: falls.finish(),
             overlap: overlaps.finish(),
             corrected,
-            first,
             requested,
             contacts: contacts.map(|contacts| contacts.rounded(error.magnitude)),
             laws,

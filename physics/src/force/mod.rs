@@ -74,9 +74,9 @@ pub trait Force: Send + Sync {
     /// Constant contributions of fixed bodies are left out.
     fn potential(&self, moment: &Moment) -> f64;
 
-    /// Adds the share of each body in the [potential energy](Self::potential) to `shares`, J. A body has half of an energy that it has
-    /// together with another body, and all of it if no force moves the other body: if that one is fixed, or has a given motion. Fixed
-    /// bodies have no share. The shares add up to the potential energy. The default is for a force without a potential.
+    /// Adds to `shares` what each body has of the [potential energy](Self::potential), J. Of the energy of two bodies, each has half. If one of
+    /// them is fixed or has a given motion, the other one has all of it. All shares together are the potential energy. A force without a
+    /// potential keeps this default, which adds nothing.
     fn share_potential(&self, _moment: &Moment, _shares: &mut [f64]) {}
 
     /// Returns the account for the work of the force's part without a potential; `None` if there is no such part.

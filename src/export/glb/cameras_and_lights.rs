@@ -6,7 +6,7 @@ use super::document::{Camera, CameraLens, Light, Orthographic, Perspective};
 use super::materials::MappedLook;
 use super::motion::{NodePose, Recorder, SampledMotion};
 use crate::export::ExportError;
-use crate::picture::{Lamp, Lens, Placed, PlacedLight, Plan, Stage};
+use crate::picture::{Lamp, Lens, Lost, Placed, PlacedLight, Plan, Stage};
 use crate::scene::{Body, LookAspect, Output, Visibility};
 use crate::simulate::{Frame, Recorded, Selection};
 
@@ -64,10 +64,11 @@ impl CamerasAndLights {
     }
 }
 
-/// Returns an error if a camera or a light follows a value that is unknown in a frame.
+/// Returns an error if a camera or a light follows a measure that is unknown in a frame.
 fn known(plans: &[Plan], frame: &Frame) -> Result<(), ExportError> {
-    match plans.iter().find_map(|plan| plan.lost(frame)) {
-        Some(what) => Err(ExportError::NoValue { what, time: frame.time }),
+    let lost = plans.iter().find_map(|plan| plan.lost(frame)).filter(|lost| lost.follows_measures);
+    match lost {
+        Some(Lost { what, .. }) => Err(ExportError::NoValue { what, time: frame.time }),
         None => Ok(()),
     }
 }

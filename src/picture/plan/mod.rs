@@ -76,6 +76,14 @@ pub struct Plan {
     unseen_plots: Vec<UnseenPlot>,
 }
 
+/// A camera or a light without a finite place.
+pub(crate) struct Lost {
+    /// The camera or the light, in words.
+    pub(crate) what: String,
+    /// Whether it follows measures, which are unknown while a body is absent.
+    pub(crate) follows_measures: bool,
+}
+
 /// The sizes of arrows and lines in a picture.
 #[derive(Clone, Copy, Debug)]
 struct Sizes {
@@ -197,22 +205,24 @@ impl Plan {
         self.eye.at(frame)
     }
 
-    /// Names the camera or a light if its position in a frame is not finite. Formulas for positions were checked at the times of frames
-    /// only.
-    pub(crate) fn lost(&self, frame: &Frame) -> Option<String> {
+    /// Finds the camera or a light whose place in a frame is not finite. Formulas of the time were checked at the times of frames only, and
+    /// measures are known in each frame only.
+    pub(crate) fn lost(&self, frame: &Frame) -> Option<Lost> {
         let is_lost = |camera: &Placed| {
             let has_angle = !matches!(camera.lens(), Lens::Perspective { angle } if !angle.is_finite());
             let has_sky = camera.sky().is_none_or(glam::DVec3::is_finite);
             !has_angle || !has_sky || !camera.location().is_finite() || !camera.look_at().is_finite()
         };
         if self.camera_moves() && is_lost(&self.camera(frame)) {
-            return Some("the camera".to_owned());
+            return Some(Lost {
+                what: "the camera".to_owned(),
+                follows_measures: self.eye.follows_measures(),
+            });
         }
         let lights = if self.lights_move { self.lights(frame) } else { Vec::new() };
-        lights
-            .iter()
-            .find(|light| !light.location.is_finite())
-            .map(|light| format!("the light `{}`", light.name))
+        let number = lights.iter().position(|light| !light.location.is_finite())?;
+        let what = format!("the light `{}`", lights[number].name);
+        Some(Lost { what, follows_measures: self.lights.follows_measures(number) })
     }
 
     /// The camera before it moves. A fixed camera is the same in all frames.

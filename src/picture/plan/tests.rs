@@ -458,3 +458,23 @@ fn texts_do_not_jump_from_frame_to_frame() {
     }
     assert_eq!(jumps, 0);
 }
+
+/// A plan depends on the run alone, not on the way in which its frames were surveyed: with the past of each frame, or from a recording.
+#[test]
+fn texts_have_the_same_places_by_frames_and_by_a_recording() {
+    let text = "simulation = { duration = 2, gravity = [0, -9.81, 0] }
+        [camera]\nlocation = [4, 3, 14]\nlook_at = [4, 3, 0]
+        [body.ball]\nshape.sphere.radius = 0.3\nlocation = [0, 1, 0]\nvelocity = [4, 9, 0]
+        ghosts.every = 0.2\narrows.velocity.label = 'v'
+        [label.time]\nbody = 'ball'\nghosts = true\ntext = '${t:.1} s'\n[label.now]\nbody = 'ball'\ntext = 'a ball'";
+    let scene = Scene::parse(text).unwrap();
+    let by_frames = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+    let run = crate::Run::new(&scene).unwrap();
+    for frame in Frames::new(&scene).step_by(7) {
+        let frame = frame.unwrap();
+        let places = |plan: &Plan| -> Vec<String> {
+            plan.texts(&frame).iter().map(|text| format!("{} {} {:?}", text.says, text.x, text.y)).collect()
+        };
+        assert_eq!(places(&by_frames), places(run.emitter().plan()), "at {} s", frame.time);
+    }
+}

@@ -26,7 +26,7 @@ pub struct Written<'a> {
 }
 
 /// The texts of a frame, before those with several possible places are placed.
-struct Started<'a> {
+struct PartlyPlaced<'a> {
     screen: Screen,
     /// The axis names of the grid.
     grid: Vec<Text<'a>>,
@@ -50,12 +50,12 @@ impl Plan {
 
     /// Places the texts of a frame. `None` if the scene has no texts.
     ///
-    /// Labels in corners and the scale bar have fixed positions. The axis names of the grid are placed next, then the texts of arrows and marks
-    /// and the labels beside bodies, then the numbers of the grid, each where there is room. No text covers a spring or joint, except an axis name without
-    /// another free position.
+    /// Labels in corners and the scale bar have fixed places. Then come the axis names of the grid, then the texts of arrows and marks, then the
+    /// labels beside bodies. The numbers of the grid come last: a number without room is left out. A text near a body or an arrow evades
+    /// springs, joints and bodies only as far as it stays near.
     pub fn written<'a>(&'a self, frame: &Frame) -> Option<Written<'a>> {
-        let Started { screen, mut grid, numbers, bar, mut labels, movables, surroundings } =
-            self.started(frame)?;
+        let PartlyPlaced { screen, mut grid, numbers, bar, mut labels, movables, surroundings } =
+            self.partly_placed(frame)?;
         let mut named = Vec::new();
         let mut moved = self.labels.room();
         let is_alone = surroundings.is_none();
@@ -79,14 +79,14 @@ impl Plan {
     /// Chooses the favored places of texts from a sample of frames.
     pub(super) fn favored(&self, samples: &[Frame]) -> Favored {
         let sample = |frame: &Frame| {
-            let started = self.started(frame)?;
-            Some((frame.time, started.surroundings?, started.movables))
+            let partly = self.partly_placed(frame)?;
+            Some((frame.time, partly.surroundings?, partly.movables))
         };
         Favored::new(samples.iter().filter_map(sample).collect())
     }
 
     /// Places the texts of a frame that have only one place, and finds the possible places of the others. `None` if the scene has no texts.
-    fn started<'a>(&'a self, frame: &Frame) -> Option<Started<'a>> {
+    fn partly_placed<'a>(&'a self, frame: &Frame) -> Option<PartlyPlaced<'a>> {
         let screen = self.screen(frame)?;
         let mut room = self.labels.room();
         self.plots.areas().for_each(|area| room.take(area));
@@ -123,7 +123,7 @@ impl Plan {
             }
             Surroundings { texts: room, lines, bodies: self.labels.crowd(frame, &screen) }
         });
-        Some(Started { screen, grid, numbers, bar, labels, movables, surroundings })
+        Some(PartlyPlaced { screen, grid, numbers, bar, labels, movables, surroundings })
     }
 
     /// The lines that labels avoid in a frame, each with its width, m: arrows, coordinate axes, springs and joints.

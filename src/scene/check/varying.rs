@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::Context;
 use super::marks::Known;
 use super::measures::Reader;
-use crate::scene::read::Written;
+use crate::scene::read::UncheckedVarying;
 use crate::scene::timed::Timed;
 use crate::scene::varying::{Varying, VaryingPoint};
 
@@ -15,12 +15,12 @@ impl Known<'_, '_> {
     pub(super) fn number(
         self,
         noun: &'static str,
-        written: Written<'_>,
+        written: UncheckedVarying<'_>,
         context: &mut Context<'_>,
     ) -> Varying {
         match written {
-            Written::Timed(timed) => Varying::Timed(timed),
-            Written::Measured(text, span) => {
+            UncheckedVarying::Timed(timed) => Varying::Timed(timed),
+            UncheckedVarying::Measured(text, span) => {
                 let mut reader = Reader::new(noun, (text, span), self.root, None, self.things, context);
                 let formula = reader.formula_with_unit(0..text.len());
                 formula
@@ -33,7 +33,7 @@ impl Known<'_, '_> {
     pub(super) fn point(
         self,
         noun: &'static str,
-        written: [Written<'_>; 3],
+        written: [UncheckedVarying<'_>; 3],
         context: &mut Context<'_>,
     ) -> VaryingPoint {
         VaryingPoint::of(written.map(|coordinate| self.number(noun, coordinate, context)))

@@ -43,7 +43,7 @@ enum Obstacle {
 }
 
 impl GuidedBodies {
-    /// Finds the bodies of a scene whose copies are not made yet.
+    /// Finds these bodies in a scene, before its repeated bodies are copied.
     pub(super) fn of(root: &Table) -> GuidedBodies {
         let inner =
             |table: &Table, key: &str| table.get(key).and_then(|entry| entry.node.as_table()).cloned();

@@ -1,29 +1,38 @@
-//! A sample of the frames of a run, from which pictures choose the places of texts for the whole run.
+//! A sample of the frames of a run. From it, pictures choose the places of texts for the whole run, and cameras and lights know where they begin.
 
 use crate::scene::{LabelPlace, Scene};
+use crate::simulate::tallies::SoFar;
 use crate::simulate::{Frame, Past};
 
-/// The number of frames in a sample.
-const FRAMES: usize = 80;
-/// The number of bodies in all frames of a sample, which limits the number of frames, since a sample stays in memory.
-const BODIES: usize = 100_000;
+/// The largest number of frames in a sample.
+const MOST_FRAMES: usize = 80;
+/// The largest number of bodies in all frames of a sample together, since a sample stays in memory.
+const MOST_BODIES: usize = 100_000;
 
 pub(super) struct Samples {
-    /// Every frame whose number is a multiple of this is in the sample. `None` if no text looks for its place.
+    /// The sample has the frames whose numbers are multiples of this. `None` without a sample.
     stride: Option<usize>,
     frames: Vec<Frame>,
 }
 
 impl Samples {
     pub(super) fn new(scene: &Scene) -> Samples {
-        let most = (BODIES / scene.bodies.len().max(1)).clamp(2, FRAMES);
-        let stride = scene.simulation.timeline.frames().div_ceil(most).max(1);
-        Samples { stride: has_movable_texts(scene).then_some(stride), frames: Vec::new() }
+        let most = (MOST_BODIES / scene.bodies.len().max(1)).clamp(2, MOST_FRAMES);
+        let frames = scene.simulation.timeline.frames();
+        let stride = if has_movable_texts(scene) {
+            Some(frames.div_ceil(most).max(1))
+        } else {
+            // Only the first frame is needed.
+            scene.stage_follows_measures().then_some(frames.max(1))
+        };
+        Samples { stride, frames: Vec::new() }
     }
 
-    pub(super) fn see(&mut self, frame: &Frame) {
+    /// Adds a frame if it is one of the sample. Of its past, only what measures know of earlier frames is kept.
+    pub(super) fn see(&mut self, frame: &Frame, past: SoFar<'_>) {
         if self.stride.is_some_and(|stride| frame.index.is_multiple_of(stride)) {
-            let past = Past { trails: Vec::new(), ..frame.past.clone() };
+            let SoFar { areas, closest } = past;
+            let past = Past { areas: areas.to_vec(), closest: closest.to_vec(), ..Past::default() };
             self.frames.push(Frame { particles: Vec::new(), past, ..frame.clone() });
         }
     }

@@ -8,9 +8,9 @@ use crate::scene::{Emitter, EmitterMeasure, Scene, Timeline};
 /// The largest number of births in a run whose times are kept. Of more, the living ones are counted at each moment.
 const MOST_KEPT: u64 = 5_000_000;
 
-/// The births of an emitter in a run.
+/// The particles of an emitter in a run, by their births and deaths.
 #[derive(Clone, Debug)]
-pub(super) struct Births {
+pub(super) struct Population {
     source: Arc<ParticleSource>,
     /// The times at which the body is present that carries the emitter. `None` without such a body.
     carrier: Option<Presence>,
@@ -19,12 +19,12 @@ pub(super) struct Births {
     lives: Arc<OnceLock<Option<[Vec<f64>; 2]>>>,
 }
 
-impl Births {
-    /// Prepares the births of an emitter.
-    pub(super) fn new(scene: &Scene, emitter: &Emitter) -> Births {
+impl Population {
+    /// Prepares the particles of an emitter.
+    pub(super) fn new(scene: &Scene, emitter: &Emitter) -> Population {
         let carrier = emitter.carrier.map(|body| scene.bodies[body.index()].presence.clone());
         let timeline = scene.simulation.timeline;
-        Births { source: emitter.source.clone(), carrier, timeline, lives: Arc::default() }
+        Population { source: emitter.source.clone(), carrier, timeline, lives: Arc::default() }
     }
 
     /// Returns a measure of the emitter at a time, s.
@@ -108,18 +108,19 @@ mod tests {
             [emitter.c]\nfrom = { point = [0, 0, 0], body = 'boat' }\nspeed = 1\nshape.sphere.radius = 0.01
             rate = 50\nlifetime = 0.25";
         let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));
-        let births: Vec<Births> = scene.emitters.iter().map(|emitter| Births::new(&scene, emitter)).collect();
+        let populations: Vec<Population> =
+            scene.emitters.iter().map(|emitter| Population::new(&scene, emitter)).collect();
         let mut total = 0;
         for frame in Frames::new(&scene) {
             let frame = frame.unwrap();
-            for (births, swarm) in births.iter().zip(&frame.particles) {
-                let count = births.value(EmitterMeasure::Count, frame.time);
-                assert_eq!(count as usize, swarm.len(), "{births:?} at {} s", frame.time);
+            for (population, swarm) in populations.iter().zip(&frame.particles) {
+                let count = population.value(EmitterMeasure::Count, frame.time);
+                assert_eq!(count as usize, swarm.len(), "{population:?} at {} s", frame.time);
                 total += swarm.len();
             }
         }
         assert!(total > 300, "{total}");
-        let rate = |number: usize, time: f64| births[number].value(EmitterMeasure::Rate, time);
+        let rate = |number: usize, time: f64| populations[number].value(EmitterMeasure::Rate, time);
         assert_eq!([-0.6, 0.3, 1.3].map(|time| rate(0, time)), [0.0, 37.0, 0.0]);
         assert!((rate(1, 0.3) - 20.0 / 0.45).abs() < 1e-12);
         assert_eq!([0.2, 0.7, 1.9].map(|time| rate(2, time)), [0.0, 50.0, 0.0]);
