@@ -1,52 +1,164 @@
-//! The font of all texts in pictures: DejaVu Sans. jabuka puts a copy of its file beside the scripts.
+//! The fonts of texts in pictures. Texts are set in DejaVu Sans, unless a label has a font of its own. jabuka puts copies of the files beside
+//! the scripts.
 
+use std::borrow::Cow;
+use std::fmt;
 use std::sync::LazyLock;
 
-use ttf_parser::{Face, OutlineBuilder};
+use owned_ttf_parser::{AsFaceRef, Face, OutlineBuilder, OwnedFace};
 
-/// The name of the font's file.
-pub const FILE_NAME: &str = "DejaVuSans.ttf";
-
-/// The contents of the font's file.
-pub static FILE_BYTES: &[u8] = include_bytes!("../templates/assets/DejaVuSans.ttf");
-
-/// The font, parsed. It always parses, as the tests below show.
-static FACE: LazyLock<Option<Face<'static>>> = LazyLock::new(|| Face::parse(FILE_BYTES, 0).ok());
-
-/// Returns whether a text can contain a letter: the font has it, and POV-Ray draws it right. POV-Ray sets letters from left to right, and
-/// does not join them as Arabic needs.
-pub fn has(letter: char) -> bool {
-    let is_right_to_left =
-        matches!(letter, '\u{590}'..='\u{8ff}' | '\u{fb1d}'..='\u{fdff}' | '\u{fe70}'..='\u{feff}');
-    // POV-Ray 3.7 knows only the letters of Unicode's basic plane.
-    let is_drawn = !letter.is_control() && letter <= '\u{ffff}' && !is_right_to_left;
-    is_drawn && FACE.as_ref().is_some_and(|face| face.glyph_index(letter).is_some())
+/// The weight of letters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Weight {
+    /// The usual letters.
+    Regular,
+    /// Letters with thicker strokes.
+    Bold,
 }
 
-/// Returns the width of a text, relative to the size of the font (its em): the sum of the advance widths of its letters.
-pub fn width(text: &str) -> f64 {
-    let Some(face) = FACE.as_ref() else { return 0.0 };
-    let advance = |letter: char| face.glyph_hor_advance(face.glyph_index(letter).unwrap_or_default());
-    let advances = text.chars().map(|letter| f64::from(advance(letter).unwrap_or_default()));
-    advances.sum::<f64>() / f64::from(face.units_per_em())
+/// A font file.
+pub struct Font {
+    file_name: Cow<'static, str>,
+    /// The font, parsed. `None` only for a file of jabuka's own that does not parse, which the tests below exclude.
+    face: Option<OwnedFace>,
 }
 
-/// Returns where the ink of a text begins and ends, relative to the size of the font, measured from where its first letter begins.
-/// `None` for a text without ink.
-pub fn ink(text: &str) -> Option<[f64; 2]> {
-    let face = FACE.as_ref()?;
-    let em = f64::from(face.units_per_em());
-    let bounds = |letter: char| face.glyph_bounding_box(face.glyph_index(letter)?);
-    let mut at = 0.0;
-    let mut ink: Option<[f64; 2]> = None;
-    for letter in text.chars() {
-        if let Some(bounds) = bounds(letter) {
-            let [left, right] = [bounds.x_min, bounds.x_max].map(|x| at + f64::from(x) / em);
-            ink = Some(ink.map_or([left, right], |[begin, end]| [begin.min(left), end.max(right)]));
-        }
-        at += width(letter.encode_utf8(&mut [0; 4]));
+/// The fonts of a text, one for each weight.
+pub struct Typeface {
+    regular: Font,
+    /// `None` if bold letters are set in the regular font.
+    bold: Option<Font>,
+}
+
+/// The files of DejaVu Sans, regular and bold: their names and contents.
+pub static FILES: [(&str, &[u8]); 2] = [
+    ("DejaVuSans.ttf", include_bytes!("../templates/assets/DejaVuSans.ttf")),
+    ("DejaVuSans-Bold.ttf", include_bytes!("../templates/assets/DejaVuSans-Bold.ttf")),
+];
+
+static DEJAVU_SANS: LazyLock<Typeface> = LazyLock::new(|| {
+    let [regular, bold] = FILES.map(|(name, bytes)| Font {
+        file_name: name.into(),
+        face: OwnedFace::from_vec(bytes.to_vec(), 0).ok(),
+    });
+    Typeface { regular, bold: Some(bold) }
+});
+
+impl Typeface {
+    /// DejaVu Sans, in which texts are set that have no font of their own.
+    pub fn usual() -> &'static Typeface {
+        &DEJAVU_SANS
     }
-    ink
+
+    /// Creates the typeface of a font file, which has one weight. `file_name` is its path among the assets.
+    ///
+    /// # Errors
+    ///
+    /// Returns the reason why POV-Ray cannot set texts in the font.
+    pub fn of_file(file_name: String, bytes: Vec<u8>) -> Result<Typeface, &'static str> {
+        if bytes.starts_with(b"ttcf") {
+            return Err("it is a collection of fonts, and POV-Ray reads files with one font");
+        }
+        let face = OwnedFace::from_vec(bytes, 0).map_err(|_| "it is not a TrueType font")?;
+        let tables = face.as_face_ref().tables();
+        if tables.glyf.is_none() {
+            return Err("its outlines are those of PostScript, and POV-Ray reads TrueType outlines");
+        }
+        if tables.cmap.is_none_or(|cmap| cmap.subtables.into_iter().all(|table| !table.is_unicode())) {
+            return Err("it has no table of Unicode letters");
+        }
+        Ok(Typeface { regular: Font { file_name: file_name.into(), face: Some(face) }, bold: None })
+    }
+
+    /// Returns the font of a weight.
+    pub fn font(&self, weight: Weight) -> &Font {
+        match (&self.bold, weight) {
+            (Some(bold), Weight::Bold) => bold,
+            (None, Weight::Bold) | (_, Weight::Regular) => &self.regular,
+        }
+    }
+
+    /// Returns whether bold letters differ from regular ones.
+    pub fn has_bold(&self) -> bool {
+        self.bold.is_some()
+    }
+}
+
+impl PartialEq for Typeface {
+    /// Typefaces are equal if they are the same one.
+    fn eq(&self, other: &Typeface) -> bool {
+        std::ptr::eq(self, other)
+    }
+}
+
+impl fmt::Debug for Typeface {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Typeface").field(&self.regular.file_name).finish()
+    }
+}
+
+impl Font {
+    /// The path of the font's file among the assets.
+    pub fn file_name(&self) -> &str {
+        &self.file_name
+    }
+
+    /// The contents of the font's file.
+    pub fn bytes(&self) -> &[u8] {
+        self.face.as_ref().map_or(&[], OwnedFace::as_slice)
+    }
+
+    fn face(&self) -> Option<&Face<'_>> {
+        self.face.as_ref().map(OwnedFace::as_face_ref)
+    }
+
+    /// Returns whether a text can contain a letter: the font has it, and POV-Ray draws it right. POV-Ray sets letters from left to right, and
+    /// does not join them as Arabic needs.
+    pub fn has(&self, letter: char) -> bool {
+        let is_right_to_left =
+            matches!(letter, '\u{590}'..='\u{8ff}' | '\u{fb1d}'..='\u{fdff}' | '\u{fe70}'..='\u{feff}');
+        // POV-Ray 3.7 knows only the letters of Unicode's basic plane.
+        let is_drawn = !letter.is_control() && letter <= '\u{ffff}' && !is_right_to_left;
+        is_drawn && self.face().is_some_and(|face| face.glyph_index(letter).is_some())
+    }
+
+    /// Returns the width of a text, relative to the size of the font (its em): the sum of the advance widths of its letters.
+    pub fn width(&self, text: &str) -> f64 {
+        let Some(face) = self.face() else { return 0.0 };
+        let advance = |letter: char| face.glyph_hor_advance(face.glyph_index(letter).unwrap_or_default());
+        let advances = text.chars().map(|letter| f64::from(advance(letter).unwrap_or_default()));
+        advances.sum::<f64>() / f64::from(face.units_per_em())
+    }
+
+    /// Returns where the ink of a text begins and ends, relative to the size of the font, measured from where its first letter begins.
+    /// `None` for a text without ink.
+    pub fn ink(&self, text: &str) -> Option<[f64; 2]> {
+        let face = self.face()?;
+        let em = f64::from(face.units_per_em());
+        let bounds = |letter: char| face.glyph_bounding_box(face.glyph_index(letter)?);
+        let mut at = 0.0;
+        let mut ink: Option<[f64; 2]> = None;
+        for letter in text.chars() {
+            if let Some(bounds) = bounds(letter) {
+                let [left, right] = [bounds.x_min, bounds.x_max].map(|x| at + f64::from(x) / em);
+                ink = Some(ink.map_or([left, right], |[begin, end]| [begin.min(left), end.max(right)]));
+            }
+            at += self.width(letter.encode_utf8(&mut [0; 4]));
+        }
+        ink
+    }
+
+    /// Returns the outline of a text, relative to the size of the font, with x to the right and y upwards from where its first letter begins.
+    pub fn outline(&self, text: &str) -> Vec<Step> {
+        let Some(face) = self.face() else { return Vec::new() };
+        let mut outline = Outline { steps: Vec::new(), left: 0.0, em: f64::from(face.units_per_em()) };
+        for letter in text.chars() {
+            let glyph = face.glyph_index(letter).unwrap_or_default();
+            face.outline_glyph(glyph, &mut outline);
+            outline.left += f64::from(face.glyph_hor_advance(glyph).unwrap_or_default());
+        }
+        outline.steps
+    }
 }
 
 /// A step of the outline of letters. Each closed line begins with a move.
@@ -63,18 +175,6 @@ pub enum Step {
         /// The end of the curve.
         to: [f64; 2],
     },
-}
-
-/// Returns the outline of a text, relative to the size of the font, with x to the right and y upwards from where its first letter begins.
-pub fn outline(text: &str) -> Vec<Step> {
-    let Some(face) = FACE.as_ref() else { return Vec::new() };
-    let mut outline = Outline { steps: Vec::new(), left: 0.0, em: f64::from(face.units_per_em()) };
-    for letter in text.chars() {
-        let glyph = face.glyph_index(letter).unwrap_or_default();
-        face.outline_glyph(glyph, &mut outline);
-        outline.left += f64::from(face.glyph_hor_advance(glyph).unwrap_or_default());
-    }
-    outline.steps
 }
 
 /// An outline that is being read from the font.
@@ -105,7 +205,7 @@ impl OutlineBuilder for Outline {
         self.steps.push(Step::Curve { control: self.at(control_x, control_y), to: self.at(x, y) });
     }
 
-    // The font has quadratic curves only.
+    // TrueType outlines have quadratic curves only.
     fn curve_to(&mut self, _: f32, _: f32, _: f32, _: f32, x: f32, y: f32) {
         self.line_to(x, y);
     }
@@ -120,25 +220,43 @@ mod tests {
     #[test]
     fn letters_of_many_languages_are_there() {
         let text = "Δφ = 30°, Höhe 2,5·10⁻³ m, Å, ×, é, ł, Ж, ω₀, −1, ½, ∂, ∑, ≈, →";
-        assert!(text.chars().all(has), "{:?}", text.chars().find(|letter| !has(*letter)));
-        for missing in ['漢', 'א', 'ب', '🙂', '\n'] {
-            assert!(!has(missing), "{missing}");
+        for weight in [Weight::Regular, Weight::Bold] {
+            let font = Typeface::usual().font(weight);
+            assert!(
+                text.chars().all(|letter| font.has(letter)),
+                "{:?}",
+                text.chars().find(|letter| !font.has(*letter))
+            );
+            for missing in ['漢', 'א', 'ب', '🙂', '\n'] {
+                assert!(!font.has(missing), "{missing}");
+            }
         }
     }
 
     /// The outline of a letter is as wide as its ink.
     #[test]
     fn outlines_are_where_the_ink_is() {
-        for text in ["x", "Δφ = 30°", "10⁻³ m"] {
-            let points = outline(text).into_iter().map(|step| match step {
+        let fonts = [Weight::Regular, Weight::Bold].map(|weight| Typeface::usual().font(weight));
+        for (text, font) in ["x", "Δφ = 30°", "10⁻³ m"].into_iter().zip(fonts.into_iter().cycle()) {
+            let points = font.outline(text).into_iter().map(|step| match step {
                 Step::Move(to) | Step::Line(to) | Step::Curve { to, .. } => to,
             });
             let (left, right) = points.fold((f64::INFINITY, f64::NEG_INFINITY), |(left, right), [x, _]| {
                 (left.min(x), right.max(x))
             });
-            let [begin, end] = ink(text).unwrap();
+            let [begin, end] = font.ink(text).unwrap();
             assert!((left - begin).abs() < 0.01 && (right - end).abs() < 0.01, "{text}: {left} {right}");
         }
-        assert_eq!(outline(" "), []);
+        assert_eq!(fonts[0].outline(" "), []);
+        assert!(fonts[1].width("bold") > 1.05 * fonts[0].width("bold"));
+    }
+
+    #[test]
+    fn a_font_of_ones_own_must_be_one_that_povray_reads() {
+        let own = |bytes: &[u8]| Typeface::of_file("own.ttf".to_owned(), bytes.to_vec());
+        assert_eq!(own(FILES[1].1).unwrap().font(Weight::Bold).file_name(), "own.ttf");
+        for bytes in [b"ttcf\0\x01".as_slice(), b"", b"no font", &FILES[0].1[..1000]] {
+            assert!(own(bytes).is_err());
+        }
     }
 }

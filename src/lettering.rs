@@ -1,13 +1,13 @@
-//! Texts with subscripts and superscripts.
+//! Texts with subscripts, superscripts and bold letters.
 //!
 //! A scene writes `v_0`, `x_{max}` and `m/s^2`. Raised digits and signs become the letters that Unicode has for them: `m/s²`. The lowered digits
 //! of the font hardly stand below the line, so a zero would look like the letter o, and the font has few such letters for words, with uneven
 //! gaps. So other scripts are set in smaller letters that are lowered or raised. A *set text* is a text in which control characters
-//! mark these letters. No text of a scene can contain control characters.
+//! mark these letters, and those that are bold. No text of a scene can contain control characters.
 
 use std::ops::Range;
 
-use crate::font;
+use crate::font::{Typeface, Weight};
 
 /// The mark before lowered letters.
 const LOWER_MARK: char = '\u{11}';
@@ -15,6 +15,12 @@ const LOWER_MARK: char = '\u{11}';
 const RAISE_MARK: char = '\u{12}';
 /// The mark after lowered or raised letters.
 const END_MARK: char = '\u{13}';
+/// The mark before bold letters. A bold stretch never contains a space of a scene's text, so that a text can be broken at any space.
+const BOLD_MARK: char = '\u{14}';
+/// The mark after bold letters.
+const END_OF_BOLD_MARK: char = '\u{15}';
+/// All marks.
+const MARKS: [char; 5] = [LOWER_MARK, RAISE_MARK, END_MARK, BOLD_MARK, END_OF_BOLD_MARK];
 
 /// The size of lowered and raised letters, relative to the other letters.
 pub const SCRIPT_SIZE: f64 = 0.68;
@@ -46,29 +52,38 @@ impl Level {
     }
 }
 
-/// Letters of a set text that stand at the same level.
+/// Letters of a set text that stand at the same level and have the same weight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Run<'a> {
     /// The level of the letters.
     pub level: Level,
+    /// The weight of the letters.
+    pub weight: Weight,
     /// The letters.
     pub letters: &'a str,
 }
 
-/// Splits a set text into runs of letters at the same level. There are no empty runs.
+/// Splits a set text into runs of letters at the same level and with the same weight. There are no empty runs.
 pub fn runs(text: &str) -> impl Iterator<Item = Run<'_>> {
-    let mut level = Level::Line;
-    text.split_inclusive([LOWER_MARK, RAISE_MARK, END_MARK]).filter_map(move |part| {
-        let letters = part.trim_end_matches([LOWER_MARK, RAISE_MARK, END_MARK]);
-        let run = Run { level, letters };
+    let (mut level, mut weight) = (Level::Line, Weight::Regular);
+    text.split_inclusive(MARKS).filter_map(move |part| {
+        let letters = part.trim_end_matches(MARKS);
+        let run = Run { level, weight, letters };
         match part[letters.len()..].chars().next() {
             Some(LOWER_MARK) => level = Level::Lower,
             Some(RAISE_MARK) => level = Level::Upper,
-            Some(_) => level = Level::Line,
-            None => {}
+            Some(END_MARK) => level = Level::Line,
+            Some(BOLD_MARK) => weight = Weight::Bold,
+            Some(END_OF_BOLD_MARK) => weight = Weight::Regular,
+            Some(_) | None => {}
         }
         (!letters.is_empty()).then_some(run)
     })
+}
+
+/// Returns a set text without the marks at its ends.
+pub fn without_marks(text: &str) -> &str {
+    text.trim_matches(MARKS)
 }
 
 /// Returns a set text for people who read it as plain text, such as `x_0` or `m^-1`.
@@ -85,9 +100,10 @@ pub fn plain(text: &str) -> String {
     plain
 }
 
-/// Returns the width of a set text, relative to the size of the font: that of its longest line.
-pub fn width(text: &str) -> f64 {
-    let line = |line: &str| runs(line).map(|run| run.level.size() * font::width(run.letters)).sum();
+/// Returns the width of a set text in a typeface, relative to the size of the font: that of its longest line.
+pub fn width(text: &str, typeface: &Typeface) -> f64 {
+    let wide = |run: Run<'_>| run.level.size() * typeface.font(run.weight).width(run.letters);
+    let line = |line: &str| runs(line).map(wide).sum();
     text.split('\n').map(line).fold(0.0, f64::max)
 }
 
@@ -104,10 +120,13 @@ pub fn spaces(text: &str) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Returns a part of a set text that was cut at its end, with the mark that then misses.
+/// Returns a part of a set text that was cut at its end, with the marks that then miss.
 pub fn closed(mut text: String) -> String {
     if text.rfind([LOWER_MARK, RAISE_MARK]) > text.rfind(END_MARK) {
         text.push(END_MARK);
+    }
+    if text.rfind(BOLD_MARK) > text.rfind(END_OF_BOLD_MARK) {
+        text.push(END_OF_BOLD_MARK);
     }
     text
 }
@@ -121,39 +140,111 @@ pub struct BadScript {
     pub is_open: bool,
 }
 
-/// Sets the subscripts and superscripts of a text. `follows` tells whether a value stands right before the text.
+impl BadScript {
+    fn moved(self, by: usize) -> BadScript {
+        BadScript { range: self.range.start + by..self.range.end + by, ..self }
+    }
+}
+
+/// Sets the subscripts, superscripts and bold letters of a byte range of a text. A value stands before each range except the first.
 ///
 /// A script in braces stands anywhere. Without braces, `^` needs a letter, a digit or a closing bracket before it, and `_` a single letter,
-/// so that `my_ball` and `x_1_2` stay as they are. `\_` and `\^` are the signs themselves.
+/// so that `my_ball` and `x_1_2` stay as they are. `**` begins bold letters right before a word, and ends them right after one. `\_`, `\^` and
+/// `\*` are the signs themselves.
+///
+/// `bold_from` is the byte of the text at which bold letters begin that have not ended, before and after the range: a value may stand between
+/// two ranges.
 ///
 /// # Errors
 ///
 /// Returns all scripts in braces without an end or without letters.
-pub fn set(text: &str, follows: bool) -> Result<String, Vec<BadScript>> {
-    let (mut out, mut wrong) = (String::with_capacity(text.len()), Vec::new());
+pub fn set(text: &str, range: Range<usize>, bold_from: &mut Option<usize>) -> Result<String, Vec<BadScript>> {
+    let (begin, text) = (range.start, &text[range]);
+    let mut out = Out {
+        text: String::with_capacity(text.len()),
+        bold_from: *bold_from,
+        is_marked: bold_from.is_some(),
+    };
+    let mut wrong = Vec::new();
     let mut at = 0;
     // Whether a script ended right before `at`.
-    let mut after_script = follows;
+    let mut after_script = begin > 0;
     while let Some(letter) = text[at..].chars().next() {
         let rest = &text[at + letter.len_utf8()..];
-        if let Some(sign) = rest.chars().next().filter(|sign| letter == '\\' && matches!(sign, '_' | '^')) {
+        if let Some(sign) =
+            rest.chars().next().filter(|sign| letter == '\\' && matches!(sign, '_' | '^' | '*'))
+        {
             out.push(sign);
             (at, after_script) = (at + 2, false);
             continue;
         }
+        if let Some(length) = sign_of_bold(text, at, out.is_bold()) {
+            out.bold_from = if out.is_bold() { None } else { Some(begin + at) };
+            at += length;
+            continue;
+        }
         match script(text, at, after_script) {
             Some(Ok((inside, end))) => {
-                push(&mut out, letter == '^', inside);
+                out.push_script(letter == '^', inside);
                 (at, after_script) = (end, true);
             }
             found => {
-                wrong.extend(found.and_then(Result::err));
+                wrong.extend(found.and_then(Result::err).map(|bad| bad.moved(begin)));
                 out.push(letter);
                 (at, after_script) = (at + letter.len_utf8(), false);
             }
         }
     }
-    if wrong.is_empty() { Ok(out) } else { Err(wrong) }
+    *bold_from = out.bold_from;
+    if wrong.is_empty() { Ok(out.finish()) } else { Err(wrong) }
+}
+
+/// Returns the length of a sign `**` at a byte of a text, if it begins bold letters or, with `is_bold`, ends them. More than two stars are
+/// stars.
+fn sign_of_bold(text: &str, at: usize, is_bold: bool) -> Option<usize> {
+    let [before, rest] = [&text[..at], text[at..].strip_prefix("**")?];
+    let beside = if is_bold { before.chars().next_back() } else { rest.chars().next() };
+    let is_of_two = !before.ends_with('*') && !rest.starts_with('*');
+    (is_of_two && beside.is_none_or(|letter| !letter.is_whitespace())).then_some(2)
+}
+
+/// A set text that is being written.
+struct Out {
+    text: String,
+    /// The byte at which bold letters begin. `None` for regular letters.
+    bold_from: Option<usize>,
+    /// Whether the text ends inside of a mark for bold letters.
+    is_marked: bool,
+}
+
+impl Out {
+    /// Writes the mark that is needed before a letter: spaces are outside of marks.
+    fn mark(&mut self, is_bold: bool) {
+        if is_bold != self.is_marked {
+            self.text.push(if is_bold { BOLD_MARK } else { END_OF_BOLD_MARK });
+            self.is_marked = is_bold;
+        }
+    }
+
+    fn push(&mut self, letter: char) {
+        self.mark(self.is_bold() && !matches!(letter, ' ' | '\n'));
+        self.text.push(letter);
+    }
+
+    fn is_bold(&self) -> bool {
+        self.bold_from.is_some()
+    }
+
+    fn push_script(&mut self, is_raised: bool, inside: &str) {
+        self.mark(self.is_bold());
+        push(&mut self.text, is_raised, inside);
+    }
+
+    /// The text. If it ends in bold letters, a value behind it has them, too.
+    fn finish(mut self) -> String {
+        self.mark(self.is_bold());
+        self.text
+    }
 }
 
 /// True if a brace at this byte begins a script.
@@ -277,10 +368,15 @@ fn superscript(letter: char) -> Option<char> {
 mod tests {
     use super::*;
 
-    /// Sets a text, and shows the marks as `<`, `>` and `|`.
+    fn set_whole(text: &str) -> Result<String, Vec<BadScript>> {
+        set(text, 0..text.len(), &mut None)
+    }
+
+    /// Sets a text, and shows the marks as `<`, `>` and `|`, and those of bold letters as `(` and `)`.
     fn shown(text: &str) -> String {
-        let set = set(text, false).unwrap_or_else(|wrong| panic!("{text}: {wrong:?}"));
-        set.replace(LOWER_MARK, "<").replace(RAISE_MARK, ">").replace(END_MARK, "|")
+        let set = set_whole(text).unwrap_or_else(|wrong| panic!("{text}: {wrong:?}"));
+        let shown = ["<", ">", "|", "(", ")"];
+        MARKS.into_iter().zip(shown).fold(set, |set, (mark, shown)| set.replace(mark, shown))
     }
 
     #[test]
@@ -341,26 +437,53 @@ mod tests {
             assert_eq!(shown(text), text);
         }
         assert_eq!(shown(r"v\_0 x\^2 v_0"), "v_0 x^2 v<0|");
-        assert_eq!(set("^2", true).unwrap(), "²", "a value stands before it");
+        assert_eq!(set("1^2", 1..3, &mut None).unwrap(), "²", "a value stands before it");
+    }
+
+    #[test]
+    fn two_stars_begin_and_end_bold_letters() {
+        for (text, expected) in [
+            ("**bold** and not", "(bold) and not"),
+            ("**two words**, **E_{kin} = 2**", "(two) (words), (E<kin|) (=) (2)"),
+            ("so**me**\n**a**", "so(me)\n(a)"),
+            ("2 ** 3 * 4", "2 ** 3 * 4"),
+            (r"\*\*no\*\*", "**no**"),
+            ("*** stars ****", "*** stars ****"),
+            ("**a ** b**", "(a) (**) (b)"),
+        ] {
+            assert_eq!(shown(text), expected, "{text}");
+        }
+        let (text, mut bold_from) = ("**v = 5 m/s**, **t", None);
+        let pieces = [0..6, 7..18].map(|range| set(text, range, &mut bold_from).unwrap());
+        let bold = |letters: &str| format!("\u{14}{letters}\u{15}");
+        let expected = [bold("v"), bold("="), bold("5"), bold("m/s") + ",", "\u{14}t".to_owned()];
+        assert_eq!(pieces.join("5"), expected.join(" "));
+        assert_eq!(bold_from, Some(15), "these bold letters have no end");
     }
 
     #[test]
     fn a_script_without_an_end_is_a_mistake_at_its_place() {
         let wrong = |range, is_open| BadScript { range, is_open };
-        assert_eq!(set("é x_{max", false), Err(vec![wrong(4..6, true)]));
-        assert_eq!(set("x_{} y^{ }", false), Err(vec![wrong(1..4, false), wrong(6..10, false)]));
+        assert_eq!(set_whole("é x_{max"), Err(vec![wrong(4..6, true)]));
+        assert_eq!(set_whole("x_{} y^{ }"), Err(vec![wrong(1..4, false), wrong(6..10, false)]));
     }
 
     #[test]
     fn runs_are_as_wide_as_their_letters() {
-        let text = set("x_{max} and", false).unwrap();
-        let runs: Vec<Run<'_>> = runs(&text).collect();
-        let run = |level, letters| Run { level, letters };
-        assert_eq!(runs, [run(Level::Line, "x"), run(Level::Lower, "max"), run(Level::Line, " and")]);
-        let expected = font::width("x and") + SCRIPT_SIZE * font::width("max");
-        assert!((width(&text) - expected).abs() < 1e-9);
+        let text = set_whole("x_{max} and").unwrap();
+        let split: Vec<Run<'_>> = runs(&text).collect();
+        let run = |level, letters| Run { level, weight: Weight::Regular, letters };
+        assert_eq!(split, [run(Level::Line, "x"), run(Level::Lower, "max"), run(Level::Line, " and")]);
+        let usual = Typeface::usual();
+        let [regular, bold] = [Weight::Regular, Weight::Bold].map(|weight| usual.font(weight));
+        let expected = regular.width("x and") + SCRIPT_SIZE * regular.width("max");
+        assert!((width(&text, usual) - expected).abs() < 1e-9);
         assert_eq!(closed(text[..4].to_owned()), "x\u{11}ma\u{13}");
-        assert_eq!(plain("v\u{11}0\u{13} m\u{12}-1\u{13}"), "v_0 m^-1");
+        assert_eq!(closed("\u{14}bo".to_owned()), "\u{14}bo\u{15}");
+        assert_eq!(plain("v\u{11}0\u{13} \u{14}m\u{12}-1\u{13}\u{15}"), "v_0 m^-1");
         assert_eq!(closed(text.clone()), text);
+        let text = set_whole("**two** v_0").unwrap();
+        let expected = bold.width("two") + regular.width(" v") + SCRIPT_SIZE * regular.width("0");
+        assert!((width(&text, usual) - expected).abs() < 1e-9);
     }
 }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use crate::font::Weight;
 use crate::lettering::{self, Level};
 
 /// A color: red, green and blue, 0 to 255.
@@ -96,7 +97,7 @@ fn hex([red, green, blue]: Rgb) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// Returns the words of a text as the contents of an element, with smaller letters for subscripts and superscripts.
+/// Returns the words of a text as the contents of an element, with smaller letters for subscripts and superscripts, and bold ones.
 fn words(text: &str, size: f64) -> String {
     let mut out = String::new();
     let mut risen = 0.0;
@@ -104,13 +105,14 @@ fn words(text: &str, size: f64) -> String {
         let (letters, rise) = (escaped(run.letters), run.level.rise() * size);
         let down = risen - rise;
         risen = rise;
+        let bold = if run.weight == Weight::Bold { " font-weight=\"bold\"" } else { "" };
         // Writing to a string cannot fail.
         let _ = match (run.level, down == 0.0) {
-            (Level::Line, true) => write!(out, "{letters}"),
-            (Level::Line, false) => write!(out, "<tspan dy=\"{down:.2}\">{letters}</tspan>"),
+            (Level::Line, true) if bold.is_empty() => write!(out, "{letters}"),
+            (Level::Line, _) => write!(out, "<tspan dy=\"{down:.2}\"{bold}>{letters}</tspan>"),
             (level, _) => {
                 let small = level.size() * size;
-                write!(out, "<tspan dy=\"{down:.2}\" font-size=\"{small:.2}\">{letters}</tspan>")
+                write!(out, "<tspan dy=\"{down:.2}\" font-size=\"{small:.2}\"{bold}>{letters}</tspan>")
             }
         };
     }

@@ -7,7 +7,7 @@ mod canvas;
 mod pdf;
 mod png;
 
-use crate::font::{self, Step};
+use crate::font::{Step, Typeface};
 use crate::lettering;
 use crate::svg::{Anchor, HALF_OF_LETTERS, Rgb, Svg};
 
@@ -56,18 +56,20 @@ fn outlines([x, y]: [f64; 2], says: &str, anchor: Anchor, size: f64) -> Vec<Step
         Anchor::Middle => 0.5,
         Anchor::End => 1.0,
     };
-    let mut left = x - part * size * lettering::width(says);
+    let typeface = Typeface::usual();
+    let mut left = x - part * size * lettering::width(says, typeface);
     let base = y + HALF_OF_LETTERS * size;
     let mut steps = Vec::new();
     for run in lettering::runs(says) {
         let (size, base) = (size * run.level.size(), base - size * run.level.rise());
         let place = |[across, up]: [f64; 2]| [left + size * across, base - size * up];
-        steps.extend(font::outline(run.letters).into_iter().map(|step| match step {
+        let font = typeface.font(run.weight);
+        steps.extend(font.outline(run.letters).into_iter().map(|step| match step {
             Step::Move(to) => Step::Move(place(to)),
             Step::Line(to) => Step::Line(place(to)),
             Step::Curve { control, to } => Step::Curve { control: place(control), to: place(to) },
         }));
-        left += size * font::width(run.letters);
+        left += size * font.width(run.letters);
     }
     steps
 }

@@ -11,6 +11,7 @@ use super::screen::Screen;
 use super::stage::Scenery;
 use super::text::{MARGIN, Text, Vertical, across_free, is_top, least_height};
 use crate::decimal::round_below;
+use crate::font::Typeface;
 use crate::scene::{Color, DecimalSign, ScaleBar, Scene};
 
 /// A scale bar in the image plane, where the picture has a width of 2.
@@ -90,6 +91,7 @@ impl ScaleBars {
             height: self.height,
             align: 0.5,
             color: self.ink,
+            typeface: Typeface::usual(),
             anchor: None,
         };
         Some((bar, number))

@@ -261,24 +261,28 @@ fn least(costs: &[f64]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::font::Typeface;
     use crate::scene::Color;
 
-    const TEXT: Text<'_> = Text {
-        name: "t",
-        says: std::borrow::Cow::Borrowed("text"),
-        x: 0.0,
-        y: Vertical::Middle(0.0),
-        height: 0.1,
-        align: 0.5,
-        color: Color::WHITE,
-        anchor: None,
-    };
+    fn text() -> Text<'static> {
+        Text {
+            name: "t",
+            says: "text".into(),
+            x: 0.0,
+            y: Vertical::Middle(0.0),
+            height: 0.1,
+            align: 0.5,
+            color: Color::WHITE,
+            typeface: Typeface::usual(),
+            anchor: None,
+        }
+    }
 
     /// A text with places at these distances to the right of the middle, with these costs.
     fn movable(places: &[(f64, f64)]) -> Movable<'static> {
         let place =
             |(x, cost): &(f64, f64)| Place { x: *x, y: Vertical::Middle(0.0), align: 0.5, cost: *cost };
-        Movable { key: Key::Label(0), text: TEXT, places: places.iter().map(place).collect() }
+        Movable { key: Key::Label(0), text: text(), places: places.iter().map(place).collect() }
     }
 
     fn surroundings() -> Surroundings {

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::framing::Free;
 use super::occupancy::Rectangle;
+use crate::font::Typeface;
 use crate::lettering;
 use crate::scene::{Color, Corner, Output};
 
@@ -36,6 +37,8 @@ pub struct Text<'a> {
     pub align: f64,
     /// The color of the text.
     pub color: Color,
+    /// The fonts in which the text is set.
+    pub typeface: &'a Typeface,
     /// The point of the world that the text names, m. `None` for a text that names no point.
     pub anchor: Option<DVec3>,
 }
@@ -48,7 +51,7 @@ impl Text<'_> {
 
     /// The rectangle that the text covers, in a picture with the given ratio of height to width.
     pub(super) fn area(&self, aspect: f64) -> Rectangle {
-        let wide = width(&self.says, self.height);
+        let wide = self.height * lettering::width(&self.says, self.typeface);
         let (left, base) = (self.x - self.align * wide, self.y.above_middle(aspect));
         Rectangle {
             left,
@@ -102,9 +105,9 @@ pub(super) fn least_height(pixels: f64, output: Output) -> f64 {
     2.0 * pixels / f64::from(output.width)
 }
 
-/// Returns the width of a text for a line height.
+/// Returns the width of a text in the usual font for a line height.
 pub(super) fn width(says: &str, height: f64) -> f64 {
-    height * lettering::width(says)
+    height * lettering::width(says, Typeface::usual())
 }
 
 /// The horizontal position of a text in a corner, and its alignment.

@@ -6,6 +6,7 @@ use glam::{DQuat, DVec3};
 use serde::Serialize;
 
 use super::run::{Outcome, PreviewRun, TrailValues};
+use crate::font::{Typeface, Weight};
 use crate::physics::{self, Shape};
 use crate::picture::{PlacedLight, Plan, Thing, has_texts, pale};
 use crate::scene::{Body, Color, Look, LookNumber, Scene, Sky, Visibility};
@@ -40,6 +41,8 @@ pub(super) struct Description<'a> {
     shows: bool,
     /// True if the scene has particle emitters.
     particles: bool,
+    /// The files of the fonts that labels have of their own.
+    fonts: Vec<&'a str>,
     /// The surroundings of the bodies: camera, lights, ground. `None` until the run is finished.
     stage: Option<Stage>,
 }
@@ -203,8 +206,19 @@ pub(super) fn describe(run: &PreviewRun) -> Description<'_> {
         bounds: run.bounds().map(|Bounds { min, max }| [min.to_array(), max.to_array()]),
         shows: shows(scene, outcome),
         particles: !scene.emitters.is_empty(),
+        fonts: fonts(scene).map(|font| font.font(Weight::Regular).file_name()).collect(),
         stage: outcome.map(|outcome| stage(run, outcome)),
     }
+}
+
+/// The fonts that labels have of their own, each once.
+pub(super) fn fonts(scene: &Scene) -> impl Iterator<Item = &Typeface> {
+    let labels = scene.labels.iter().enumerate();
+    labels.filter_map(|(number, label)| {
+        let font = label.own_typeface.as_deref()?;
+        let is_known = scene.labels[..number].iter().any(|other| other.own_typeface.as_deref() == Some(font));
+        (!is_known).then_some(font)
+    })
 }
 
 /// Encodes the triangles of all base shapes, one shape after another. Each shape has its number of vertices and of indices, then

@@ -35,7 +35,8 @@ pub(super) const FILES: &[(&str, &str, &[u8])] = &[
     ("/surroundings.js", JAVASCRIPT_TYPE, include_bytes!("page/surroundings.js")),
     ("/texts.js", JAVASCRIPT_TYPE, include_bytes!("page/texts.js")),
     ("/viewpoint.js", JAVASCRIPT_TYPE, include_bytes!("page/viewpoint.js")),
-    ("/DejaVuSans.ttf", "font/ttf", font::FILE_BYTES),
+    ("/DejaVuSans.ttf", "font/ttf", font::FILES[0].1),
+    ("/DejaVuSans-Bold.ttf", "font/ttf", font::FILES[1].1),
 ];
 
 #[cfg(test)]

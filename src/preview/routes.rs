@@ -39,6 +39,7 @@ use super::render::{Renderer, Wanted};
 use super::run::{PreviewRun, RunId};
 use super::session::{Session, Variant};
 use super::{describe, numbers, samples, shown, swarms};
+use crate::font::Weight;
 
 /// The data that the server answers requests from.
 #[derive(Clone)]
@@ -68,6 +69,7 @@ pub(super) fn router(server: Server) -> Router {
         .route("/api/events", get(events))
         .route("/api/runs/{id}", get(description))
         .route("/api/runs/{id}/forms", get(forms))
+        .route("/api/runs/{id}/fonts/{number}", get(font))
         .route("/api/runs/{id}/ghosts", get(ghosts))
         .route("/api/runs/{id}/poses", get(poses))
         .route("/api/runs/{id}/balance", get(balance))
@@ -185,6 +187,15 @@ async fn description(State(server): State<Server>, Path(id): Path<RunId>) -> Res
 async fn forms(State(server): State<Server>, Path(id): Path<RunId>) -> Result<Response, Failed> {
     let run = server.run(id)?;
     blocking(move || Ok(binary(Body::from(describe::triangles(&run.scene))))).await
+}
+
+async fn font(
+    State(server): State<Server>,
+    Path((id, number)): Path<(RunId, usize)>,
+) -> Result<Response, Failed> {
+    let run = server.run(id)?;
+    let font = describe::fonts(&run.scene).nth(number).ok_or(Failed::Gone)?;
+    Ok(binary(Body::from(font.font(Weight::Regular).bytes().to_vec())))
 }
 
 async fn ghosts(State(server): State<Server>, Path(id): Path<RunId>) -> Result<Response, Failed> {

@@ -5,7 +5,9 @@ use std::io;
 use glam::DVec3;
 use serde::Serialize;
 
+use super::describe;
 use super::run::PreviewRun;
+use crate::font::Weight;
 use crate::lettering;
 use crate::picture::{self, Lens, Placed, PlacedLight, Plan, Thing, Vertical};
 use crate::scene::{Color, LabelPlace, Scene, Side};
@@ -68,8 +70,11 @@ pub(super) struct Light {
 #[derive(Serialize)]
 struct Text {
     name: String,
-    /// The letters of the text, in parts: their size and their height above the line, both relative to the size of the text.
-    says: Vec<(String, f64, f64)>,
+    /// The letters of the text, in parts: their size and their height above the line, both relative to the size of the text, and whether they
+    /// are bold.
+    says: Vec<(String, f64, f64, bool)>,
+    /// The number of the text's own font in the description of the run. `None` for the usual font.
+    font: Option<usize>,
     /// The distance between two lines, relative to the size of the text.
     line: f64,
     /// The position of the text in the image plane: x goes from −1 to 1, and y has the same scale, with 0 in the middle.
@@ -273,8 +278,12 @@ fn text(scene: &Scene, screen: Option<&picture::Screen>, text: &picture::Text<'_
     Text {
         name: text.name.to_owned(),
         says: lettering::runs(&text.says)
-            .map(|run| (run.letters.to_owned(), run.level.size(), run.level.rise()))
+            .map(|run| {
+                let is_bold = run.weight == Weight::Bold;
+                (run.letters.to_owned(), run.level.size(), run.level.rise(), is_bold)
+            })
             .collect(),
+        font: describe::fonts(scene).position(|font| font == text.typeface),
         line: picture::LINE,
         x: text.x,
         y: text.y.above_middle(aspect(scene)),

@@ -1,6 +1,9 @@
 //! The labels, the scale bar and the grid of a scene.
 
+use std::sync::Arc;
+
 use super::{Color, MeasureFormula};
+use crate::font::Typeface;
 
 /// A text that is drawn in the picture.
 #[derive(Clone, Debug)]
@@ -17,6 +20,8 @@ pub struct Label {
     pub size: Option<f64>,
     /// The color of the text. `None` for the default color: dark on a light background, and light on a dark one.
     pub color: Option<Color>,
+    /// The font of the text. `None` for the usual one.
+    pub own_typeface: Option<Arc<Typeface>>,
 }
 
 impl Label {
@@ -25,6 +30,11 @@ impl Label {
 
     /// The times of a label that is always visible.
     pub const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+    /// Returns the fonts in which the text is set.
+    pub fn typeface(&self) -> &Typeface {
+        self.own_typeface.as_deref().unwrap_or(Typeface::usual())
+    }
 
     /// Returns whether the label is visible at a time, s.
     pub fn is_visible(&self, time: f64) -> bool {

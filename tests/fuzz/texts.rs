@@ -9,7 +9,7 @@ use jabuka::Scene;
 use jabuka::catalog::Category;
 use jabuka::diagnostic::{Code, Diagnostic, Report, Sources, Span, nearest, visible, visible_lines};
 use jabuka::explain::Explanation;
-use jabuka::font::Step;
+use jabuka::font::{Step, Typeface, Weight};
 use jabuka::lettering;
 use jabuka::physics::Method;
 use jabuka::report::plot::{Chart, Curve, Picture, png, svg};
@@ -23,7 +23,7 @@ use jabuka::simulate::Selection;
 use proptest::prelude::*;
 
 /// The public functions with a text argument that are tried here, as `file: name`.
-const TRIED: [&str; 48] = [
+const TRIED: [&str; 49] = [
     "catalog.rs: named",
     "diagnostic/code.rs: named",
     "diagnostic/mod.rs: at",
@@ -47,6 +47,7 @@ const TRIED: [&str; 48] = [
     "lettering.rs: set",
     "lettering.rs: spaces",
     "lettering.rs: width",
+    "lettering.rs: without_marks",
     "report/plot/chart.rs: of_charts",
     "report/plot/mod.rs: of",
     "report/text.rs: to_text",
@@ -208,16 +209,19 @@ proptest! {
         let svg = svg(&picture);
         prop_assert!(ASSESSMENT.to_text(&text).starts_with(&text) && svg.ends_with("</svg>\n"));
         let _ = png(&picture).unwrap();
-        let width = jabuka::font::width(&text);
+        let font = Typeface::usual().font(Weight::Bold);
+        let width = font.width(&text);
         prop_assert!(width.is_finite() && width >= 0.0, "{width}");
-        prop_assert!(jabuka::font::ink(&text).is_none_or(|ends| ends.iter().all(|end| end.is_finite())));
+        prop_assert!(font.ink(&text).is_none_or(|ends| ends.iter().all(|end| end.is_finite())));
         let is_finite = |step| match step {
             Step::Move(to) | Step::Line(to) | Step::Curve { to, .. } => to.iter().all(|part| part.is_finite()),
         };
-        prop_assert!(jabuka::font::outline(&text).into_iter().all(is_finite));
-        match lettering::set(&text, false) {
+        prop_assert!(font.outline(&text).into_iter().all(is_finite));
+        let _ = Typeface::of_file(text.clone(), text.clone().into_bytes());
+        match lettering::set(&text, 0..text.len(), &mut None) {
             Ok(set) => {
-                prop_assert!(lettering::width(&set).is_finite());
+                prop_assert!(lettering::width(&set, Typeface::usual()).is_finite());
+                prop_assert!(lettering::without_marks(&set).len() <= set.len());
                 prop_assert!(lettering::plain(&set).len() <= set.len());
                 prop_assert!(lettering::runs(&set).all(|run| !run.letters.is_empty()));
                 prop_assert!(lettering::spaces(&set).all(|at| set.is_char_boundary(at)));

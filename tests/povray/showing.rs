@@ -2,6 +2,8 @@
 
 use glam::{DVec2, DVec3};
 use jabuka::Run;
+use jabuka::font::{Font, Typeface, Weight};
+
 use jabuka::scene::Scene;
 
 use crate::image::{Image, Rgb, is_blue, is_green, is_red};
@@ -295,6 +297,11 @@ fn a_label_stands_beside_its_body_and_is_not_hidden() {
     }
 }
 
+/// The font of regular letters.
+fn usual_font() -> &'static Font {
+    Typeface::usual().font(Weight::Regular)
+}
+
 /// Checks the places of subscripts, superscripts and lines: each part is where the metrics of the font say.
 #[test]
 fn subscripts_and_lines_of_a_label_are_in_their_places() {
@@ -303,10 +310,10 @@ fn subscripts_and_lines_of_a_label_are_in_their_places() {
     let spot = image.spot(is_white).0;
     let high = 0.2 * 360.0;
     // The columns of the letters in the first line: an H, the subscript, the superscript, and an H after a space.
-    let width = |text: &str| jabuka::font::width(text) * high;
+    let width = |text: &str| usual_font().width(text) * high;
     let small = jabuka::lettering::SCRIPT_SIZE;
     // The ink begins at the place of the label.
-    let mut begin = 0.035 / 2.0 * 640.0 - jabuka::font::ink("H").unwrap()[0] * high;
+    let mut begin = 0.035 / 2.0 * 640.0 - usual_font().ink("H").unwrap()[0] * high;
     let mut bottoms = Vec::new();
     for wide in [width("H"), small * width("HH"), small * width("HH"), width(" H")] {
         let column =
@@ -507,9 +514,11 @@ fn the_moments_of_a_shutter_have_their_own_past() {
 fn texts_are_as_wide_as_pov_ray_sets_them() {
     let texts = ["Kinetic energy", "Δφ = 30°, Höhe 2,5·10⁻³ m", "iiiiii", "WWWW", "−7.5·10⁻⁶ J", "ball"];
     let folder = tempfile::tempdir().unwrap();
-    let measure = |text: &&str| {
-        let letters =
-            format!("#declare Letters = text {{ ttf \"assets/DejaVuSans.ttf\" \"{text}\" 0.01, 0 }};");
+    let fonts = [Weight::Regular, Weight::Bold].map(|weight| Typeface::usual().font(weight));
+    let texts = fonts.into_iter().flat_map(|font| texts.map(|text| (font, text))).collect::<Vec<_>>();
+    let measure = |(font, text): &(&Font, &str)| {
+        let file = font.file_name();
+        let letters = format!("#declare Letters = text {{ ttf \"assets/{file}\" \"{text}\" 0.01, 0 }};");
         format!("{letters}\n#warning concat(\"width \", str(max_extent(Letters).x, 0, 6), \" end\\n\")\n")
     };
     let settings = "#version 3.7;\nglobal_settings { charset utf8 assumed_gamma 1 }\n";
@@ -520,10 +529,50 @@ fn texts_are_as_wide_as_pov_ray_sets_them() {
         said.split("width ").skip(1).map(|rest| rest.split(" end").next().unwrap().parse().unwrap());
     let measured: Vec<f64> = measured.collect();
     assert_eq!(measured.len(), texts.len(), "{said}");
-    for (text, measured) in texts.iter().zip(measured) {
-        let spaces = jabuka::font::width(text) - measured;
+    for ((font, text), measured) in texts.iter().zip(measured) {
+        let spaces = font.width(text) - measured;
         assert!((-0.01..0.25).contains(&spaces), "{text}: {measured}, and {spaces} more by the font");
     }
+}
+
+/// Bold words and a font of a label's own are drawn from their files, and stand where the metrics of these fonts say.
+#[test]
+fn bold_letters_and_fonts_of_labels_are_drawn() {
+    let text = format!(
+        "{DARK}[body.ball]\nshape.sphere.radius = 0.01\n[label.l]\ntext = \"**HH** HH\"\nsize = 0.2\ncolor = 'white'\n"
+    );
+    let image = render(&script(&text), [640, 360]);
+    let spot = image.spot(is_white).0;
+    let high = 0.2 * 360.0;
+    let [regular, bold] = [Weight::Regular, Weight::Bold].map(|weight| Typeface::usual().font(weight));
+    let begin = 0.035 / 2.0 * 640.0;
+    let middle = begin + (bold.width("HH") - bold.ink("H").unwrap()[0] + regular.width(" ") / 2.0) * high;
+    let count = |is_left: bool| spot.iter().filter(|pixel| (pixel.x < middle) == is_left).count() as f64;
+    let near = |x: f64| spot.iter().filter(|pixel| (pixel.x - x).abs() < 0.1 * high).count();
+    assert_eq!(near(middle), 0, "the space is where the widths of bold letters end");
+    // The strokes of bold letters are 1.7 times as wide.
+    assert!(count(true) > 1.3 * count(false), "{} {}", count(true), count(false));
+
+    let folder = tempfile::tempdir().unwrap();
+    let own = text.replace("**HH** HH", "HH") + "font = 'letters.ttf'\n";
+    std::fs::write(folder.path().join("scene.toml"), own).unwrap();
+    let font = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/keys/files/letters.ttf");
+    for name in ["letters.ttf", "assets/letters.ttf"] {
+        let to = folder.path().join(name);
+        std::fs::create_dir_all(to.parent().unwrap()).unwrap();
+        std::fs::copy(font, to).unwrap();
+    }
+    let scene = Scene::from_path(folder.path().join("scene.toml")).unwrap();
+    let run_of_scene = Run::new(&scene).unwrap();
+    let script = run_of_scene.script(&run_of_scene.at(0.0).unwrap().frame).unwrap();
+    std::fs::write(folder.path().join("own.pov"), script).unwrap();
+    run(folder.path(), &["+Iown.pov", "+W640", "+H360", "+Oown.png"]).nothing("a font of one's own");
+    let own = Image::read(&folder.path().join("own.png"));
+    let spot = own.spot(is_white).0;
+    let columns = || spot.iter().map(|pixel| pixel.x);
+    let wide = columns().fold(0.0, f64::max) - columns().fold(f64::INFINITY, f64::min);
+    let [left, right] = scene.labels[0].typeface().font(Weight::Regular).ink("HH").unwrap();
+    assert!((wide - (right - left) * high).abs() < 3.0, "{wide}, {}", (right - left) * high);
 }
 
 /// Sectors have their color from both sides: before black, 0.7 of its light, and every second one 0.35 of it. They leave the rest free.

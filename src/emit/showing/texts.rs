@@ -2,7 +2,7 @@
 
 use super::super::{sdl::Style, text};
 use super::color;
-use crate::font;
+use crate::font::{Typeface, Weight};
 use crate::lettering;
 use crate::picture::{Bar, LINE, Screen, Text, Vertical, number};
 
@@ -50,18 +50,25 @@ pub(super) fn write_bar(out: &mut String, bar: &Bar, number: &Text<'_>, style: S
 /// Appends a text. `y` gives the vertical position of letters at a distance above the base line.
 fn label(out: &mut String, (of, text): (&str, &Text<'_>), y: impl Fn(f64) -> String, style: Style) {
     let (ink, name) = (color(text.color, style), text::comment(text.name));
+    let usual = Typeface::usual().font(Weight::Regular).file_name();
     for part in parts(text) {
         // POV-Ray refuses an empty text, so a dash replaces it.
         let said = if part.letters.trim().is_empty() { "-" } else { part.letters };
         let said = text::string(said);
         let (x, y, height, align) = (short(part.x), y(part.rise), length(part.height), short(part.align));
-        out.push_str(&format!("{of}(\"{said}\", <{x}, {y}, 0>, {height}, {align}, {ink}) // {name}\n"));
+        let font = text.typeface.font(part.weight).file_name();
+        let call = match font == usual {
+            true => format!("{of}("),
+            false => format!("{of}_in(\"assets/{}\", ", text::string(font)),
+        };
+        out.push_str(&format!("{call}\"{said}\", <{x}, {y}, 0>, {height}, {align}, {ink}) // {name}\n"));
     }
 }
 
-/// A part of a text with letters of one size, in units of the image plane.
+/// A part of a text with letters of one size and weight, in units of the image plane.
 struct Part<'a> {
     letters: &'a str,
+    weight: Weight,
     x: f64,
     /// The distance of the part's base line above that of the text.
     rise: f64,
@@ -69,7 +76,7 @@ struct Part<'a> {
     align: f64,
 }
 
-/// Divides a text into parts with letters of one size, each on one line. An empty line has no parts, if there are others.
+/// Divides a text into parts with letters of one size and weight, each on one line. An empty line has no parts, if there are others.
 fn parts<'a>(text: &'a Text<'_>) -> Vec<Part<'a>> {
     if text.says.trim().is_empty() {
         return parts_of_line(text, "");
@@ -86,36 +93,38 @@ fn parts<'a>(text: &'a Text<'_>) -> Vec<Part<'a>> {
     parts
 }
 
-/// Divides a line of a text into parts with letters of one size.
+/// Divides a line of a text into parts with letters of one size and weight.
 fn parts_of_line<'a>(text: &Text<'_>, line: &'a str) -> Vec<Part<'a>> {
     let runs: Vec<lettering::Run<'a>> = lettering::runs(line).collect();
-    let part = |letters, x, (rise, size): (f64, f64), align| Part {
+    let part = |(letters, weight), x, (rise, size): (f64, f64), align| Part {
         letters,
+        weight,
         x,
         rise: rise * text.height,
         height: size * text.height,
         align,
     };
     let [_, _, ..] = runs.as_slice() else {
-        let letters = runs.first().map_or("", |run| run.letters);
+        let letters = runs.first().map_or(("", Weight::Regular), |run| (run.letters, run.weight));
         return vec![part(letters, text.x, (0.0, 1.0), text.align)];
     };
     // POV-Ray places a text by its ink, as does the scene's `align`. So the ink of each part is placed.
     let (mut at, mut inks) = (0.0, Vec::new());
     for run in runs {
-        let size = run.level.size();
+        let (size, font) = (run.level.size(), text.typeface.font(run.weight));
         // POV-Ray counts spaces at the ends as ink, so they are left out. Spaces alone are no part.
         let letters = run.letters.trim_start();
-        at += size * font::width(&run.letters[..run.letters.len() - letters.len()]);
+        at += size * font.width(&run.letters[..run.letters.len() - letters.len()]);
         let run = lettering::Run { letters: letters.trim_end(), ..run };
-        inks.extend(font::ink(run.letters).map(|ink| (run, ink.map(|x| at + size * x))));
-        at += size * font::width(letters);
+        inks.extend(font.ink(run.letters).map(|ink| (run, ink.map(|x| at + size * x))));
+        at += size * font.width(letters);
     }
     let ends =
         inks.first().zip(inks.last()).map_or([0.0; 2], |((_, [begin, _]), (_, [_, end]))| [*begin, *end]);
     let begin = text.x - text.height * (ends[0] + text.align * (ends[1] - ends[0]));
     let placed = |(run, [left, _]): (lettering::Run<'a>, [f64; 2])| {
-        part(run.letters, begin + text.height * left, (run.level.rise(), run.level.size()), 0.0)
+        let size = (run.level.rise(), run.level.size());
+        part((run.letters, run.weight), begin + text.height * left, size, 0.0)
     };
     inks.into_iter().map(placed).collect()
 }
@@ -150,14 +159,29 @@ pub(super) fn length(length: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::font::Font;
     use crate::scene::Color;
+
+    fn regular() -> &'static Font {
+        Typeface::usual().font(Weight::Regular)
+    }
 
     /// The parts of a text at the middle of the picture, with a height of 1.
     fn parts_of(says: &str, align: f64) -> Vec<(String, f64, f64, f64)> {
-        let says = says.split('\n').map(|line| lettering::set(line, false).unwrap());
+        let says = says.split('\n').map(|line| lettering::set(line, 0..line.len(), &mut None).unwrap());
         let says = says.collect::<Vec<_>>().join("\n").into();
         let (y, color) = (Vertical::Middle(0.0), Color::WHITE);
-        let text = Text { name: "t", says, x: 0.0, y, height: 1.0, align, color, anchor: None };
+        let text = Text {
+            name: "t",
+            says,
+            x: 0.0,
+            y,
+            height: 1.0,
+            align,
+            color,
+            typeface: Typeface::usual(),
+            anchor: None,
+        };
         parts(&text)
             .into_iter()
             .map(|part| (part.letters.to_owned(), part.x, part.rise, part.height))
@@ -173,11 +197,11 @@ mod tests {
         let (_, x, rise, height) = parts[1];
         assert!((0.5..0.7).contains(&x) && rise < -0.1 && height == lettering::SCRIPT_SIZE, "{parts:?}");
         // The space before the sign is about a third of the height.
-        let end = x + lettering::SCRIPT_SIZE * font::width("max");
+        let end = x + lettering::SCRIPT_SIZE * regular().width("max");
         assert!((0.25..0.45).contains(&(parts[2].1 - end)), "{parts:?}");
         let left = parts_of("x_{max} = 2", 1.0);
         let shift = parts[0].1 - left[0].1;
-        let ink_end = parts[2].1 + font::width("= 2");
+        let ink_end = parts[2].1 + regular().width("= 2");
         // The ink of the last letters is narrower than their width by the gaps at both sides.
         assert!((shift - ink_end).abs() < 0.25, "it ends at its place: {left:?}");
     }

@@ -6,6 +6,7 @@ use super::super::occupancy::{Occupancy, Rectangle};
 use super::super::screen::Screen;
 use super::super::text::{MARGIN, Text, Vertical, width};
 use super::super::thing::Thing;
+use crate::font::Typeface;
 use crate::scene::Color;
 
 /// The possible distances between two lines with numbers, in spacings of the grid. The smallest one that leaves enough room is used.
@@ -245,6 +246,7 @@ impl GridLayout {
             height: self.height,
             align,
             color: self.ink,
+            typeface: Typeface::usual(),
             anchor: None,
         }
     }

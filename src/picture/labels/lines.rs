@@ -79,20 +79,16 @@ struct Words {
 
 impl Words {
     fn of(label: &Label) -> Words {
-        let mut lines = vec![vec![0.0]];
-        for (piece, follows) in with_preceding(&label.text) {
-            for (separator, letters) in parts(&sample(piece), follows) {
-                let wide = lettering::width(letters);
-                // There is always a last line with a last word.
-                let Some(line) = lines.last_mut() else { continue };
-                match separator {
-                    Some('\n') => lines.push(vec![wide]),
-                    Some(_) => line.push(wide),
-                    None => line.iter_mut().next_back().into_iter().for_each(|word| *word += wide),
-                }
+        let text: String = label.text.iter().map(sample).collect();
+        let wide = |words: &str| lettering::width(words, label.typeface());
+        let mut lines: Vec<Vec<f64>> = Vec::new();
+        for (separator, word) in parts(&text) {
+            match (separator, lines.last_mut()) {
+                (Some(' '), Some(line)) => line.push(wide(word)),
+                _ => lines.push(vec![wide(word)]),
             }
         }
-        Words { lines, space: lettering::width(" ") }
+        Words { lines, space: wide(" ") }
     }
 
     /// The width of the longest word.
@@ -128,28 +124,23 @@ impl Words {
     }
 }
 
-/// Returns each piece of a label, with whether a value stands right before it.
-fn with_preceding(pieces: &[Piece]) -> impl Iterator<Item = (&Piece, bool)> {
-    let before =
-        std::iter::once(false).chain(pieces.iter().map(|piece| matches!(piece, Piece::Value { .. })));
-    pieces.iter().zip(before)
-}
-
 /// Returns the bytes of a set text at which it can be split: its line breaks, and its spaces except of those between a number and a unit.
-/// `follows` tells whether a value stands right before the text.
+/// `follows` tells whether a number stands right before the text.
 fn splits(text: &str, follows: bool) -> impl Iterator<Item = usize> {
     lettering::spaces(text).filter(move |at| {
-        let is_after_number =
-            if *at == 0 { follows } else { text[..*at].ends_with(|c: char| c.is_numeric()) };
-        let is_before_word = text[at + 1..].starts_with(char::is_alphabetic);
+        let is_after_number = match lettering::without_marks(&text[..*at]) {
+            "" => follows,
+            before => before.ends_with(|c: char| c.is_numeric()),
+        };
+        let is_before_word = lettering::without_marks(&text[at + 1..]).starts_with(char::is_alphabetic);
         text[*at..].starts_with('\n') || !(is_after_number && is_before_word)
     })
 }
 
 /// Splits a set text where it can be. Returns each part with the space or line break before it, if any.
-fn parts(text: &str, follows: bool) -> Vec<(Option<char>, &str)> {
+fn parts(text: &str) -> Vec<(Option<char>, &str)> {
     let (mut parts, mut begin, mut separator) = (Vec::new(), 0, None);
-    for at in splits(text, follows) {
+    for at in splits(text, false) {
         parts.push((separator, &text[begin..at]));
         // Both are one byte long.
         (begin, separator) = (at + 1, text[at..].chars().next());
@@ -167,7 +158,8 @@ fn with_breaks(label: &Label, breaks: &[usize]) -> Label {
     }
     let mut follows = false;
     for piece in &mut broken.text {
-        let follows = std::mem::replace(&mut follows, matches!(piece, Piece::Value { .. }));
+        let ends_with_number = sample(piece).ends_with(|c: char| c.is_numeric());
+        let follows = std::mem::replace(&mut follows, ends_with_number);
         let Piece::Words(words) = piece else { continue };
         let spaces: Vec<usize> = splits(words, follows).filter(|at| words[*at..].starts_with(' ')).collect();
         for at in spaces {
@@ -183,6 +175,7 @@ fn with_breaks(label: &Label, breaks: &[usize]) -> Label {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::font::Typeface;
     use crate::scene::Scene;
 
     fn block(label: &str, size: [u32; 2]) -> Block {
@@ -211,7 +204,7 @@ mod tests {
         assert_eq!(wide.height, usual.height, "its letters do not shrink");
         let said = lines(&wide);
         assert_eq!((said.len(), wide.rows), (2, 2), "{said:?}");
-        let widths: Vec<f64> = said.iter().map(|line| lettering::width(line)).collect();
+        let widths: Vec<f64> = said.iter().map(|line| lettering::width(line, Typeface::usual())).collect();
         assert!(widths.iter().all(|wide| *wide > 0.7 * widths[0]), "{said:?}");
         assert!(wide.wide < 2.0 - 2.0 * MARGIN);
         assert_eq!(lines(&block(text, [1280, 360])).len(), 1, "a wide picture has room for one line");

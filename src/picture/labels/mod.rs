@@ -186,6 +186,16 @@ impl Planned {
     /// Creates the text of the label at a position in the image plane.
     fn text<'a>(&'a self, says: Cow<'a, str>, (x, y): (f64, Vertical), align: f64) -> Text<'a> {
         let Block { label, height, .. } = &self.block;
-        Text { name: &label.name, says, x, y, height: *height, align, color: self.color, anchor: None }
+        Text {
+            name: &label.name,
+            says,
+            x,
+            y,
+            height: *height,
+            align,
+            color: self.color,
+            typeface: label.typeface(),
+            anchor: None,
+        }
     }
 }

@@ -28,7 +28,8 @@ impl Labels {
     }
 }
 
-/// A sample of a piece of a label with the largest expected length, in which numbers have up to four digits before the decimal point.
+/// A sample of a piece of a label with the largest expected length, in which numbers have up to four digits before the decimal point. A value
+/// is one word, with its unit.
 pub(super) fn sample(piece: &Piece) -> String {
     let number = |format: &Format| match format {
         Format::Short => "0.0000".to_owned(),
@@ -37,7 +38,7 @@ pub(super) fn sample(piece: &Piece) -> String {
     };
     match piece {
         Piece::Words(words) => words.clone(),
-        Piece::Value { formula, format } => number(format) + &unit(formula),
+        Piece::Value { formula, format } => number(format) + &unit(formula).replace(' ', "\u{a0}"),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::font::Typeface;
 use crate::picture::labels::Labels;
 use crate::picture::screen::Screen;
 use crate::picture::surroundings::{Key, Movable, Place};
@@ -100,6 +101,7 @@ pub(in crate::picture) fn movable<'a>(
         height,
         align: 0.5,
         color: note.color,
+        typeface: Typeface::usual(),
         anchor: Some(note.at),
     };
     let place = |turn: f64, farther: f64| {

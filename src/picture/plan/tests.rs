@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::*;
+use crate::font::Typeface;
 use crate::lettering;
 use crate::physics::BodySnapshot;
 use crate::picture::{Form, PlotBar};
@@ -157,7 +158,7 @@ fn a_caption_moves_aside_from_a_plot() {
     let [text] = &texts[..] else { panic!("{texts:?}") };
     let panel = &plan.planned_plots()[0];
     assert!(text.y.above_middle(0.5625) > 0.5625 - 0.2, "it is at the edge: {text:?}");
-    let right = text.x + 0.5 * crate::lettering::width(&text.says) * text.height;
+    let right = text.x + 0.5 * crate::lettering::width(&text.says, text.typeface) * text.height;
     assert!(right < panel.left && right > panel.left - 0.1 && text.x < 0.0, "{right} beside {}", panel.left);
 }
 
@@ -336,7 +337,8 @@ fn names_stand_at_the_ends_of_curves() {
     assert!((places[2][1] - places[3][1] - line(&plot)).abs() < 1e-9, "{places:?}");
     let middle = |both: [[f64; 2]; 2]| (both[0][1] + both[1][1]) / 2.0;
     assert!((middle([places[2], places[3]]) - middle([ends[2], ends[3]])).abs() < 1e-9);
-    let (left, right) = (plot.size[0], places[0][0] + lettering::width("other") * line(&plot));
+    let (left, right) =
+        (plot.size[0], places[0][0] + lettering::width("other", Typeface::usual()) * line(&plot));
     assert!(right <= left, "the longest name is inside of the panel");
     // Without room, they stand above the plot.
     let long = "a name that is far too long for the end of a curve in any plot";

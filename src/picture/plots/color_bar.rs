@@ -5,6 +5,7 @@ use super::colors::mixed;
 use super::panel::{NUMBERS_ROW, PADDING, cut};
 use super::room::{GAP, Room};
 use super::{PlannedPlot, PlotLine, Strip};
+use crate::font::Typeface;
 use crate::picture::number::with_sign;
 use crate::picture::text::{Text, width};
 use crate::scene::{Color, ColorMap, Corner, PlotPlace, Scene};
@@ -104,6 +105,7 @@ fn bar(
         height: line,
         align: 0.5,
         color: mixed(ink, paper, 0.1),
+        typeface: Typeface::usual(),
         anchor: None,
     };
     let title = axis.named(&map.title, map.of.unit().unwrap_or_default());

@@ -7,6 +7,7 @@ use super::axis::{Axis, Scale, Tick};
 use super::ends::apart;
 use super::room::Room;
 use super::{Axes, PlotLine};
+use crate::font::Typeface;
 use crate::lettering::closed;
 use crate::scene::{Color, DecimalSign, Plot, PlotPlace};
 
@@ -221,6 +222,7 @@ impl Panel {
             height: self.line,
             align: 0.0,
             color: *color,
+            typeface: Typeface::usual(),
             anchor: None,
         };
         Some(known.map(|(name, _)| name).zip(at).map(text).collect())
@@ -238,6 +240,7 @@ impl Panel {
             height: line,
             align,
             color,
+            typeface: Typeface::usual(),
             anchor: None,
         };
         let pad = PADDING * line;

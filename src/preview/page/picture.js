@@ -83,7 +83,7 @@ function draw() {
   strobes(run, position, at);
   if (open.other) placeOther(run);
   open.painter.draw(view, shown?.lights ?? stage?.lights ?? [], lines, drawnAt);
-  texts.show(shown, view, open.painter.space, (body) => at(body).slice(0, 3), triads(run, shown, at), stage?.plots ?? []);
+  texts.show(shown, view, open.painter.space, (body) => at(body).slice(0, 3), triads(run, shown, at), stage?.plots ?? [], run.fonts);
   const film = element("film");
   film.hidden = viewpoint.own;
   const [left, top, w, h] = view.rectangle;

@@ -20,6 +20,8 @@ const NOTHING = new Float64Array();
 
 export class Run {
   constructor(id, description, forms) {
+    /** The fonts of labels, each with the name of its family in style sheets. */
+    this.fonts = [];
     this.id = id;
     this.description = description;
     this.forms = forms;
@@ -44,7 +46,19 @@ export class Run {
   /** Fetches the constant data of a run. */
   static async open(id) {
     const [description, forms] = await Promise.all([json(`/api/runs/${id}`), binary(`/api/runs/${id}/forms`)]);
-    return new Run(id, description, readForms(forms));
+    const run = new Run(id, description, readForms(forms));
+    await run.loadFonts();
+    return run;
+  }
+
+  /** Loads the fonts that labels have of their own. */
+  async loadFonts() {
+    const load = async (_, number) => {
+      const bytes = await binary(`/api/runs/${this.id}/fonts/${number}`);
+      return new FontFace(`label ${this.id} ${number}`, bytes).load();
+    };
+    this.fonts = await Promise.all(this.description.fonts.map(load));
+    this.fonts.forEach((font) => document.fonts.add(font));
   }
 
   get frames() {
@@ -258,6 +272,7 @@ export class Run {
 
   /** Releases the data of the run, which is no longer shown. */
   close() {
+    this.fonts.forEach((font) => document.fonts.delete(font));
     this.closed = true;
     this.pieces.clear();
     this.shown.clear();

@@ -12,8 +12,11 @@ export class Texts {
     this.element = element;
   }
 
-  /** Shows the plots and the texts of a frame, and the letters at triads of axes. `at(body)` returns the location of a body. */
-  show(shown, view, space, at, triads, plots) {
+  /**
+   * Shows the plots and the texts of a frame, and the letters at triads of axes. `at(body)` returns the location of a body. `fonts` are the
+   * fonts that labels have of their own.
+   */
+  show(shown, view, space, at, triads, plots, fonts) {
     const [left, top, width, height] = view.rectangle;
     const spans = [];
     // The coordinates of texts go from -1 to 1 across the picture of the scene's camera.
@@ -26,7 +29,9 @@ export class Texts {
       if (view.own && text.beside) [x, y] = beside(text, view, space, at, width);
       if (view.own && text.anchor) [x, y] = anchored(text, view, space, width);
       if (x === undefined) continue;
-      spans.push(this.span(text, x, y, (text.height / 2) * width));
+      const span = this.span(text, x, y, (text.height / 2) * width);
+      if (fonts[text.font]) span.style.fontFamily = `"${fonts[text.font].family}", "DejaVu Sans", sans-serif`;
+      spans.push(span);
     }
     if (triads.length <= MOST_TRIADS) spans.push(...triads.flatMap((triad) => this.letters(triad, view, space)));
     if (shown?.bar && !view.own) spans.push(this.bar(shown.bar, place, width));
@@ -42,7 +47,7 @@ export class Texts {
   span(text, x, y, height) {
     const span = document.createElement("span");
     const size = Math.max(9, height);
-    span.append(...text.says.map(([letters, part, rise]) => small(letters, part, rise, size)));
+    span.append(...text.says.map(([letters, part, rise, bold]) => set(letters, part, rise, bold, size)));
     const halo = text.color[0] + text.color[1] + text.color[2] > 1.5 ? "#111" : "#fff";
     span.style.fontSize = `${size}px`;
     span.style.lineHeight = text.line ?? 1;
@@ -61,7 +66,7 @@ export class Texts {
       const size = (0.25 * arm * view.focal) / space.size / spot.w;
       if (!(spot.w > 0) || size < 7) return [];
       const [x, y] = [((spot.x + 1) / 2) * view.width, ((1 - spot.y) / 2) * view.height];
-      const span = this.span({ says: [["xyz"[axis], 1, 0]], height: 0, align: 0.5, color }, x, y + 0.35 * size, size);
+      const span = this.span({ says: [["xyz"[axis], 1, 0, false]], height: 0, align: 0.5, color }, x, y + 0.35 * size, size);
       span.className = "axis";
       span.style.textShadow = "none";
       return [span];
@@ -86,11 +91,13 @@ function anchored({ anchor: [point, [right, up]] }, view, space, width) {
   return [((spot.x + 1) / 2) * view.width + (right / 2) * width, ((1 - spot.y) / 2) * view.height - (up / 2) * width];
 }
 
-/** Returns letters of a text: a text node, or an element with smaller letters that stand `rise` times `size` above the line. */
-function small(letters, part, rise, size) {
-  if (part === 1) return letters;
-  const element = document.createElement("small");
+/** Returns letters of a text: a text node, or an element with bold letters or smaller ones that stand `rise` times `size` above the line. */
+function set(letters, part, rise, bold, size) {
+  if (part === 1 && !bold) return letters;
+  const element = document.createElement(part === 1 ? "b" : "small");
   element.textContent = letters;
+  if (bold) element.style.fontWeight = "bold";
+  if (part === 1) return element;
   element.style.fontSize = `${part * size}px`;
   element.style.bottom = `${rise * size}px`;
   return element;

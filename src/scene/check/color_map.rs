@@ -125,10 +125,11 @@ pub(super) fn text<T>(
     read(&mut Reader::new(noun, (text, span), root, Some(own), things, context))
 }
 
-/// Sets the subscripts and superscripts of a title. Reports the letters that the font does not have.
+/// Sets the scripts and the bold letters of a title. Reports the letters that the font does not have.
 fn set(reader: &mut Reader<'_, '_, '_>) -> Option<String> {
     let all = 0..reader.text.len();
     reader.note_letters(all.clone());
-    reader.report_missing();
-    reader.set(all)
+    let set = reader.set(all);
+    reader.finish();
+    set
 }

@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use super::Context;
 use super::measures::{OwnBody, Reader, Things};
 use super::read::figure;
 use super::showing::wanted;
 use super::view::View;
+use super::{Context, asset};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::font;
+use crate::font::{Typeface, Weight};
 use crate::lettering::{self, BadScript};
 use crate::scene::grammar::labels::{grid, label, scale_bar};
 use crate::scene::grammar::scene::scene;
@@ -35,7 +35,13 @@ pub(super) fn read(
             LabelPlace::Corner(_) | LabelPlace::Center => None,
         };
         let text = view.get(&label::TEXT).zip(view.span(&label::TEXT));
-        let text = text.map(|(text, span)| pieces((text, span), root, own, things, context));
+        let own_typeface = view.node(&label::FONT).and_then(|font| asset::typeface(font, context));
+        let typeface = own_typeface.as_deref().unwrap_or(Typeface::usual());
+        let text = text.map(|text| {
+            let mut reader = Reader::new("label", text, root, own, things, context);
+            reader.typeface = typeface;
+            pieces(reader)
+        });
         Label {
             name: name.to_owned(),
             text: text.unwrap_or_default(),
@@ -43,6 +49,7 @@ pub(super) fn read(
             visible,
             size: view.get(&label::SIZE),
             color: view.get(&label::COLOR),
+            own_typeface,
         }
     };
     root.named(&scene::LABEL).into_iter().map(read).collect()
@@ -120,14 +127,8 @@ fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Labe
 }
 
 /// Splits a text with values into words and values. Reports mistakes at their source positions.
-pub(super) fn pieces(
-    (text, span): (&str, Span),
-    root: &View<'_>,
-    own: Option<OwnBody>,
-    things: Things<'_>,
-    context: &mut Context<'_>,
-) -> Vec<Piece> {
-    let mut reader = Reader::new("label", (text, span), root, own, things, context);
+pub(super) fn pieces(mut reader: Reader<'_, '_, '_>) -> Vec<Piece> {
+    let text = reader.text;
     if text.len() > MAX_LENGTH {
         let message = format!("this label has {} bytes, and a label has at most {MAX_LENGTH}", text.len());
         let error = Diagnostic::error(Code::LabelSyntax, message);
@@ -141,14 +142,14 @@ pub(super) fn pieces(
         let Some(length) = text[begin..].find('}') else {
             let error = Diagnostic::error(Code::LabelSyntax, "this value has no end");
             reader.report(error, begin..begin + 2, "needs a `}`");
-            reader.report_missing();
+            reader.finish();
             return pieces;
         };
         pieces.extend(reader.value(begin + 2..begin + length));
         at = begin + length + 1;
     }
     pieces.extend(reader.words(at..text.len()));
-    reader.report_missing();
+    reader.finish();
     pieces
 }
 
@@ -224,28 +225,55 @@ impl Reader<'_, '_, '_> {
         (!set.is_empty()).then_some(Piece::Words(set))
     }
 
-    /// Sets the subscripts and superscripts in a byte range of the text. Reports those without an end.
+    /// Sets the subscripts, the superscripts and the bold letters in a byte range of the text. Reports scripts without an end.
     pub(super) fn set(&mut self, range: Range<usize>) -> Option<String> {
-        let wrong = match lettering::set(&self.text[range.clone()], range.start > 0) {
-            Ok(set) => return Some(set),
+        let set = lettering::set(self.text, range.clone(), &mut self.bold_from);
+        let wrong = match set {
+            Ok(set) => {
+                if lettering::runs(&set).any(|run| run.weight == Weight::Bold) {
+                    self.note_bold(range);
+                }
+                return Some(set);
+            }
             Err(wrong) => wrong,
         };
         for BadScript { range: inner, is_open } in wrong {
-            let sign = &self.text[range.start + inner.start..][..1];
+            let sign = &self.text[inner.start..][..1];
             let (message, label) = match is_open {
                 true => ("this script has no end", format!("needs a `}}`; `\\{sign}` is the sign itself")),
                 false => ("this script is empty", "needs letters in the braces".to_owned()),
             };
             let error = Diagnostic::error(Code::LabelSyntax, message);
-            self.report(error, range.start + inner.start..range.start + inner.end, &label);
+            self.report(error, inner, &label);
         }
         None
     }
 
-    /// Notes the letters of a byte range that the font does not have, for [`report_missing`](Self::report_missing).
+    /// Notes that a byte range of the text has bold letters. Warns if its font has none.
+    fn note_bold(&mut self, range: Range<usize>) {
+        if self.typeface.has_bold() {
+            self.context.fonts.has_bold = true;
+        } else if let Some(at) = self.text[range.clone()].find("**").map(|at| range.start + at) {
+            let message = "the letters of the label's own `font` have one weight";
+            let warning = Diagnostic::warning(Code::NoEffect, message);
+            self.report(warning, at..at + 2, "these letters are not bold");
+        }
+    }
+
+    /// Reports bold letters without an end, and all letters of the text that the font does not have.
+    pub(super) fn finish(&mut self) {
+        if let Some(from) = self.bold_from.take() {
+            let error = Diagnostic::error(Code::LabelSyntax, "these bold letters have no end");
+            self.report(error, from..from + 2, "needs another `**`; `\\*` is the sign itself");
+        }
+        self.report_missing();
+    }
+
+    /// Notes the letters of a byte range that the font does not have, for [`finish`](Self::finish).
     pub(super) fn note_letters(&mut self, range: Range<usize>) {
         let words = &self.text[range.clone()];
-        for (at, letter) in words.char_indices().filter(|(_, letter)| !font::has(*letter)) {
+        let font = self.typeface.font(Weight::Regular);
+        for (at, letter) in words.char_indices().filter(|(_, letter)| !font.has(*letter)) {
             if self.missing.iter().all(|(known, _)| *known != letter) {
                 let here = range.start + at..range.start + at + letter.len_utf8();
                 self.missing.push((letter, here));
@@ -254,7 +282,7 @@ impl Reader<'_, '_, '_> {
     }
 
     /// Reports all letters of the text that the font does not have.
-    pub(super) fn report_missing(&mut self) {
+    fn report_missing(&mut self) {
         let missing = std::mem::take(&mut self.missing);
         let Some((_, first)) = missing.first() else { return };
         let letters: Vec<String> =

@@ -3,11 +3,12 @@
 use glam::DVec3;
 
 use super::label::pieces;
-use super::measures::{OwnBody, Things};
+use super::measures::{OwnBody, Reader, Things};
 use super::read::figure;
 use super::view::View;
 use super::{Context, end};
 use crate::diagnostic::{Code, Diagnostic, Span, nearest};
+use crate::font::{Typeface, Weight};
 use crate::lettering;
 use crate::physics::{Anchor, BodyId};
 use crate::scene::grammar::bodies::body;
@@ -66,7 +67,7 @@ impl Known<'_, '_> {
     /// Reads a text with values. `of` is the body whose measures need no name.
     fn pieces(self, (text, span): (&str, Span), of: Option<usize>, context: &mut Context<'_>) -> Vec<Piece> {
         let own = of.map(|body| OwnBody { body: Subject::One(body), ghosts: false });
-        pieces((text, span), self.root, own, self.things, context)
+        pieces(Reader::new("label", (text, span), self.root, own, self.things, context))
     }
 }
 
@@ -93,13 +94,14 @@ pub(super) fn angles(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<Ang
 /// Returns the text of an angle without one, which comes from its name. Reports letters of the name that the font does not have.
 fn usual_text((name, span): (&str, Span), context: &mut Context<'_>) -> String {
     let text = Angle::usual_text(name);
-    if let Some(letter) = text.chars().find(|letter| !crate::font::has(*letter)) {
+    let font = Typeface::usual().font(Weight::Regular);
+    if let Some(letter) = text.chars().find(|letter| !font.has(*letter)) {
         let message = format!("the font has no letter `{letter}`");
         let error =
             Diagnostic::error(Code::LabelLetter, message).at(span, "the name is the text of the angle");
         context.diagnostics.push(error.help("another text: `text = \"…\"`"));
     }
-    lettering::set(&text, false).unwrap_or(text)
+    lettering::set(&text, 0..text.len(), &mut None).unwrap_or(text)
 }
 
 /// Reads a leg of an angle. Reports a leg without a direction.

@@ -16,6 +16,7 @@ pub(super) use self::aggregates::OfEach;
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::font::Typeface;
 use crate::scene::expand::place;
 use crate::scene::expression::{ExpressionError, Formula, Scope};
 use crate::scene::grammar::scene::{scene, simulation};
@@ -49,6 +50,10 @@ pub(super) struct Reader<'a, 'b, 'c> {
     pub(super) own: Option<OwnBody>,
     pub(super) things: Things<'a>,
     pub(super) context: &'a mut Context<'c>,
+    /// The fonts in which the text is set.
+    pub(super) typeface: &'a Typeface,
+    /// The byte at which bold letters begin that do not end yet.
+    pub(super) bold_from: Option<usize>,
     /// The letters that the font does not have, each once, with its first range in the text.
     pub(super) missing: Vec<(char, Range<usize>)>,
     /// The aggregate that is being read. `None` outside of aggregates.
@@ -65,7 +70,21 @@ impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
         things: Things<'a>,
         context: &'a mut Context<'c>,
     ) -> Self {
-        Reader { noun, text, span, root, own, things, context, missing: Vec::new(), each: None }
+        let typeface = Typeface::usual();
+        let missing = Vec::new();
+        Reader {
+            noun,
+            text,
+            span,
+            root,
+            own,
+            things,
+            context,
+            typeface,
+            bold_from: None,
+            missing,
+            each: None,
+        }
     }
 }
 

@@ -122,6 +122,8 @@ struct Context<'a> {
     validated: HashSet<(usize, bool)>,
     /// The SHA-256 digests of the other files that the scene reads.
     files: Vec<[u8; 32]>,
+    /// The fonts of labels.
+    fonts: asset::Fonts,
     /// The pairs of bodies whose impacts are counted, as indices of bodies.
     pairs: Vec<[usize; 2]>,
     /// The further columns of trajectory files that formulas can name.
@@ -168,6 +170,7 @@ impl Context<'_> {
             operations: motion::MAX_OPERATIONS,
             validated: HashSet::new(),
             files: Vec::new(),
+            fonts: asset::Fonts::default(),
             pairs: Vec::new(),
             file_columns: FileColumns::default(),
             approaches: Vec::new(),
@@ -386,7 +389,7 @@ fn build(
         || grid.is_some();
     let has_marks = !angles.is_empty() || !distances.is_empty() || !arrow_marks.is_empty();
     if has_labels || has_marks {
-        asset::add_font(&mut povray.assets);
+        std::mem::take(&mut context.fonts).add_to(&mut povray.assets, context);
     }
     Scene {
         name: input.name.to_owned(),

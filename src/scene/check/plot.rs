@@ -288,8 +288,9 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
         }
         let mut reader = self.reader(written);
         reader.note_letters(0..text.len());
-        reader.report_missing();
-        reader.set(0..text.len())
+        let set = reader.set(0..text.len());
+        reader.finish();
+        set
     }
 
     fn reader<'t>(&'t mut self, (text, span): Written<'t>) -> Reader<'t, 'b, 'c> {

@@ -1,6 +1,8 @@
 //! The grammar of the keys that draw measurements into the image: labels, plots, the scale bar and the grid.
 
-use super::Kind::{Boolean, Choice, Color, Either, Integer, List, Named, Number, Reference, Table, Text};
+use super::Kind::{
+    Boolean, Choice, Color, Either, File, Integer, List, Named, Number, Reference, Table, Text,
+};
 use super::key::table;
 use super::kind::{ANY, POSITIVE};
 use super::{Bound, Collection, KeySpec, Kind, Rule};
@@ -86,6 +88,9 @@ table! {
     COLOR: Option<value::Color> = KeySpec::new("color", Color, "Its color")
         .default("dark, or light on a dark background")
         .also(&["colour"]),
+    FONT: Option<value::Text> = KeySpec::new("font", File, "The file of its font, a TrueType font, relative to the scene's file")
+        .default("DejaVu Sans")
+        .also(&["typeface", "font_family", "font_file"]),
     FROM: Option<f64> = KeySpec::new("from", ANY, "When it appears")
         .unit("s")
         .default("the start of the run")

@@ -421,7 +421,10 @@ Elsewhere, a variable of the scene hides a measure of the run with the same name
 straight line between two rows. A measure of the table has precedence over a column of the same name.
 
 In the texts of labels and plots, `v_0` and `m/s^2` are subscripts and superscripts, as are `x_{max}` and `10^{-6}`, with any letters in braces. Without
-braces, only a single letter has a subscript, so `my_ball` stays as it is. A backslash makes the sign itself: `'v\\_0'` in single quotes.
+braces, only a single letter has a subscript, so `my_ball` stays as it is. `**` around words makes them bold: `\"**Height**: ${ball.y:.1} m\"`. A backslash makes the sign itself: `'v\\_0'` in single quotes.
+
+Texts are set in DejaVu Sans, which is placed beside the scripts. A label can have another TrueType font, with letters of one weight:
+`font = \"Lato.ttf\"` is a file beside the scene.
 
 `\\n` in double quotes begins a new line. A label in a corner that is wider than the picture is broken into lines at its spaces.
 `corner = \"center\"` makes a title in large letters; with `until = 2`, it disappears after two seconds. Labels that are not visible need no

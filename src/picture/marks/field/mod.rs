@@ -14,9 +14,10 @@ use self::levels::Levels;
 use super::{Mark, Scale, Sketch};
 use crate::physics::BodySnapshot;
 use crate::picture::camera::Placed;
+use crate::picture::screen::Screen;
 use crate::picture::stage::Stage;
 use crate::picture::thing::{Form, Line, Thing};
-use crate::scene::{Color, DrawnField, FieldStyle, Scene};
+use crate::scene::{Color, DrawnField, FieldStyle, Output, Scene};
 use crate::simulate::FieldSampler;
 
 /// The radius of field lines and levels, in strokes.
@@ -27,6 +28,10 @@ const ARROWS_ACROSS_PICTURE: f64 = 18.0;
 const FILLED_PART_OF_PICTURE: f64 = 0.96;
 /// The smallest cosine between the view of the camera and the normal of a plane. A flatter plane is drawn as if it had this one.
 const MIN_COSINE_OF_TILT: f64 = 0.3;
+/// The size of a region that fills the picture, relative to what the camera sees of its plane: its edges are outside of the picture.
+const SIZE_BEYOND_PICTURE: f64 = 1.05;
+/// How far a region that fills the picture reaches at most, relative to one that does not. A camera that looks from aside sees far.
+const MAX_REACH: f64 = 3.0;
 
 /// The part of a plane in which a field is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -65,7 +70,10 @@ pub(super) fn marks(scene: &Scene, stage: &Stage, (camera, view): (&Placed, f64)
     let mark = |(number, drawn): (usize, &DrawnField)| {
         let mut sampler = FieldSampler::new(scene, drawn)?;
         sampler.follow(0.0, &start);
-        let region = Region::new(scene, drawn, &sampler, &start, (camera, view));
+        let mut region = Region::new(scene, drawn, &sampler, &start, (camera, view));
+        if drawn.style != FieldStyle::Arrows {
+            region = region.filling(&camera.screen(), aspect(scene.output)).unwrap_or(region);
+        }
         let radius = |body: &crate::scene::Body| body.drawn().bounding_radius().unwrap_or(0.0);
         let mut mark = FieldMark {
             drawn: drawn.clone(),
@@ -125,10 +133,30 @@ impl Region {
         let right = camera.screen().right();
         let across = (right - normal * right.dot(normal)).normalize_or(normal.any_orthonormal_vector());
         let up = normal.cross(across);
-        let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
+        let aspect = aspect(scene.output);
         let tilt = towards.dot(normal).abs().max(MIN_COSINE_OF_TILT);
         let half = [FILLED_PART_OF_PICTURE * view / 2.0, FILLED_PART_OF_PICTURE * view / 2.0 * aspect / tilt];
         Region { middle, axes: [across, up], half }
+    }
+
+    /// Returns the region that fills a picture with this ratio of height to width. `None` if a corner of the picture shows nothing of the plane.
+    fn filling(self, screen: &Screen, aspect: f64) -> Option<Region> {
+        let normal = self.axes[0].cross(self.axes[1]);
+        let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        for corner in [[-1.0, -aspect], [-1.0, aspect], [1.0, -aspect], [1.0, aspect]] {
+            let (origin, direction) = screen.ray(corner[0], corner[1]);
+            let distance = (self.middle - origin).dot(normal) / direction.dot(normal);
+            if !distance.is_finite() || distance <= 0.0 {
+                return None;
+            }
+            for (ends, position) in ends.iter_mut().zip(self.position(origin + direction * distance)) {
+                let position = position.clamp(-MAX_REACH, MAX_REACH);
+                *ends = [ends[0].min(position), ends[1].max(position)];
+            }
+        }
+        let middle = self.point(ends.map(|[low, high]| (low + high) / 2.0));
+        let half = [0, 1].map(|k| self.half[k] * SIZE_BEYOND_PICTURE * (ends[k][1] - ends[k][0]) / 2.0);
+        Some(Region { middle, half, ..self })
     }
 
     /// The point at a position in the region: from −1 to 1 across and up.
@@ -145,6 +173,11 @@ impl Region {
     fn within(&self, vector: DVec3) -> DVec3 {
         self.axes[0] * vector.dot(self.axes[0]) + self.axes[1] * vector.dot(self.axes[1])
     }
+}
+
+/// The ratio of a picture's height to its width.
+fn aspect(output: Output) -> f64 {
+    f64::from(output.height) / f64::from(output.width)
 }
 
 /// The axis of the world that is nearest to a direction.

@@ -64,6 +64,27 @@ fn field_lines_enclose_constant_flux() {
     assert!(mean < 3e-5, "{mean}");
 }
 
+/// A camera that looks from aside sees more of the plane on one side: lines reach all edges of the picture.
+#[test]
+fn lines_fill_the_picture() {
+    let aside = CHARGES.replace("location = [0, 0, 10]", "location = [6, 2, 9]");
+    for show in ["lines", "levels"] {
+        let text = format!("{aside}[field.e]\nforce = 'q'\nshow = '{show}'");
+        let scene = Scene::parse(&text).unwrap();
+        let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+        let frame = Frames::new(&scene).next().unwrap().unwrap();
+        let screen = plan.camera(&frame).screen();
+        let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
+        let (lines, _) = drawn(&text);
+        let mut reached = [0.0_f64; 4];
+        for point in lines.iter().flatten().filter_map(|end| screen.project(*end)) {
+            let places = [-point.x, point.x, -point.y / aspect, point.y / aspect];
+            reached = std::array::from_fn(|edge| reached[edge].max(places[edge]));
+        }
+        assert!(reached.iter().all(|reached| *reached > 1.0), "{show}: {reached:?}");
+    }
+}
+
 /// Lines of equal potential are where k (q₁/r₁ + q₂/r₂) is a multiple of a round number.
 #[test]
 fn levels_are_multiples_of_a_round_potential() {
