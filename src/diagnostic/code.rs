@@ -42,6 +42,7 @@ codes! {
     BadFilmName = "bad-film-name",
     BadFilmRate = "bad-film-rate",
     BadFilmSize = "bad-film-size",
+    BadFont = "bad-font",
     BadFrame = "bad-frame",
     BadIdentifier = "bad-identifier",
     BadImage = "bad-image",

@@ -569,7 +569,8 @@ fn bold_letters_and_fonts_of_labels_are_drawn() {
     run(folder.path(), &["+Iown.pov", "+W640", "+H360", "+Oown.png"]).nothing("a font of one's own");
     let own = Image::read(&folder.path().join("own.png"));
     let spot = own.spot(is_white).0;
-    let columns = || spot.iter().map(|pixel| pixel.x);
+    // The ball in the middle has a white highlight.
+    let columns = || spot.iter().map(|pixel| pixel.x).filter(|x| *x < 200.0);
     let wide = columns().fold(0.0, f64::max) - columns().fold(f64::INFINITY, f64::min);
     let [left, right] = scene.labels[0].typeface().font(Weight::Regular).ink("HH").unwrap();
     assert!((wide - (right - left) * high).abs() < 3.0, "{wide}, {}", (right - left) * high);

@@ -103,7 +103,7 @@ pub(super) fn typeface(node: &Node, context: &mut Context<'_>) -> Option<Arc<Typ
         }
         Err(reason) => {
             let message = format!("`{}` cannot be the font of a label", node.as_str().unwrap_or_default());
-            let error = Diagnostic::error(Code::BadAsset, message).at(node.span, reason);
+            let error = Diagnostic::error(Code::BadFont, message).at(node.span, reason);
             context.diagnostics.push(error.help("any TrueType font, a file `….ttf`, can be"));
             None
         }

@@ -175,7 +175,7 @@ table! {
         "Its side of the picture, instead of a corner: a camera without a location shows the bodies beside it",
     )
     .default("none: it stands in a corner"),
-    WIDTH: Option<f64> = KeySpec::new("width", Number(Bound::From(0.1, 1.0)), "Its width, as part of the picture's width; at a side at most 0.4")
+    WIDTH: Option<f64> = KeySpec::new("width", Number(Bound::From(0.1, 1.0)), "Its width, as part of the picture's width; at a side at most 0.4; with 1, it fills the picture")
         .default("0.36, and more in small pictures")
         .also(&["size"]),
     RANGE: Option<Vec<f64>> = KeySpec::new("range", TWO_NUMBERS, "The lowest and the highest value of its vertical axis")
