@@ -183,12 +183,12 @@ fn too_small(scene: &Scene, plan: &Plan, largest: &Largest) -> Diagnostic {
     };
     let message = match plan.part() {
         Part::Start(end) => in_whole(format!("frames only the first {} s", rounded(end))),
-        Part::AroundBody(_) => in_whole(format!("goes along with `{name}`")),
+        Part::Along => in_whole("goes along with the motion".to_owned()),
         Part::Whole => {
             format!("the largest body, `{name}`, is {:.1} pixels wide in the picture", largest.pixels)
         }
     };
-    let is_followed = scene.camera.motion.follow.is_some() || matches!(plan.part(), Part::AroundBody(_));
+    let is_followed = scene.camera.motion.follow.is_some() || plan.part() == Part::Along;
     let follow = format!("`follow = {{ body = \"{name}\" }}` in [camera] goes along with it");
     let others = "`look.scale` draws it larger, `trail = true` shows its way; or shorten `simulation.duration`, or give \
                   a `[camera]`";

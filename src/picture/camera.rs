@@ -1,11 +1,14 @@
 //! The camera of a run: given by the scene, or chosen to fit the motion.
 
+use std::sync::Arc;
+
 use glam::{DQuat, DVec3};
 
 use super::followed::FollowedValues;
 use super::framing::{self, Field, Framing, Free, Tilt};
 use super::plots;
 use super::screen::Screen;
+use super::track::Track;
 use crate::scene::{Blur, Body, Camera, MeasureFormula, Output, Projection, Scene, VaryingPoint};
 use crate::simulate::{Bounds, Frame};
 
@@ -22,6 +25,8 @@ pub struct Placed {
     tilt: Tilt,
     blur: Option<Blur>,
     output: Output,
+    /// The part of the picture's width that plots leave free.
+    free: Free,
 }
 
 /// The projection of a camera.
@@ -67,7 +72,7 @@ impl Placed {
         };
         let location = camera.location.unwrap_or(auto.location);
         let look_at = camera.look_at.unwrap_or_else(|| aim(location, auto));
-        Placed { location, look_at, lens, tilt, blur: camera.blur, output }
+        Placed { location, look_at, lens, tilt, blur: camera.blur, output, free }
     }
 
     /// The camera at a time (s). The followed body has the half-width `size` (m). It was at `start` in the first frame, and is at `here`
@@ -110,6 +115,35 @@ impl Placed {
         };
         let roll = motion.roll.as_ref().map_or(self.tilt.roll, |roll| roll.at(time, &value));
         Placed { location, look_at, lens, tilt: Tilt { roll, ..self.tilt }, ..*self }
+    }
+
+    /// The width in view at a point, m, with which the camera shows all of the bounds if it aims at this point.
+    pub(super) fn view_for(&self, bounds: Bounds, aim: DVec3) -> f64 {
+        framing::view_for(bounds, aim, self.axes(), self.rays(), (self.output, self.free))
+    }
+
+    /// The camera with another aim and another width in view there, m. It keeps its direction.
+    fn aimed(&self, aim: DVec3, view: f64) -> Placed {
+        let (right, _, back) = self.axes();
+        let look_at = aim - right * (self.free.center * view / 2.0);
+        let (lens, distance) = match self.rays() {
+            Some(slope) => (self.lens, view / (2.0 * slope)),
+            None => (Lens::Orthographic { width: view }, self.location.distance(self.look_at)),
+        };
+        Placed { location: look_at + back * distance, look_at, lens, ..*self }
+    }
+
+    /// The unit vectors of the camera to the right, up and back.
+    fn axes(&self) -> (DVec3, DVec3, DVec3) {
+        self.tilt.axes(self.location - self.look_at)
+    }
+
+    /// The tangent of half of the horizontal angle. `None` for parallel rays.
+    fn rays(&self) -> Option<f64> {
+        match self.lens {
+            Lens::Perspective { angle } => Some(Field::new(angle, self.output).horizontal),
+            Lens::Orthographic { .. } => None,
+        }
     }
 
     /// The position of the camera in the world, m.
@@ -216,8 +250,8 @@ struct Moving {
     camera: Camera,
     /// The followed body: its index, its position at the start (m) and its half-width (m).
     body: Option<(usize, DVec3, f64)>,
-    /// The box within which the camera follows a body. `None` if there is no limit.
-    within: Option<Bounds>,
+    /// The way of a camera that goes along with the motion.
+    track: Option<Arc<Track>>,
 }
 
 impl MovingCamera {
@@ -234,14 +268,14 @@ impl MovingCamera {
             let body = &scene.bodies[follow.body];
             (follow.body, body.start.location, half_width(body).unwrap_or(1.0))
         });
-        let moving = camera.motion.moves().then(|| Moving { camera: camera.clone(), body, within: None });
+        let moving = camera.motion.moves().then(|| Moving { camera: camera.clone(), body, track: None });
         let placed = Placed::new(camera, bounds, towards, scene);
         MovingCamera { placed, moving, followed: followed.clone() }
     }
 
-    /// Limits the camera to follow its body only within a box.
-    pub(super) fn within(self, bounds: Bounds) -> MovingCamera {
-        let moving = self.moving.map(|moving| Moving { within: Some(bounds), ..moving });
+    /// The camera that goes along a track.
+    pub(super) fn along(self, camera: &Camera, track: Arc<Track>) -> MovingCamera {
+        let moving = Some(Moving { camera: camera.clone(), body: None, track: Some(track) });
         MovingCamera { moving, ..self }
     }
 
@@ -262,14 +296,21 @@ impl MovingCamera {
 
     /// The camera at a time (s), if the followed body and all measures stay at their initial values.
     pub(super) fn early(&self, time: f64) -> Placed {
-        let Some(Moving { camera, body, .. }) = &self.moving else { return self.placed };
+        let Some(Moving { camera, body, track }) = &self.moving else { return self.placed };
+        if let Some(track) = track {
+            let (aim, view) = track.at(time);
+            return self.placed.aimed(aim, view);
+        }
         let (_, start, size) = body.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
         self.placed.moved(camera, size, [start, start], time, self.followed.at_start())
     }
 
     /// The camera of a frame.
     pub(super) fn at(&self, frame: &Frame) -> Placed {
-        let Some(Moving { camera, body, within }) = &self.moving else { return self.placed };
+        let Some(Moving { camera, body, track }) = &self.moving else { return self.placed };
+        if track.is_some() {
+            return self.early(frame.time);
+        }
         let (body, start, size) = body.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
         let behind = camera.motion.follow.and_then(|follow| {
             let lag = follow.lag.unwrap_or(0.0);
@@ -279,7 +320,6 @@ impl MovingCamera {
             Some(lagging) => lagging.location,
             None => frame.body(body).map_or(start, |body| body.location),
         };
-        let here = within.map_or(here, |bounds| here.clamp(bounds.min, bounds.max));
         self.placed.moved(camera, size, [start, here], frame.time, self.followed.at(frame))
     }
 }

@@ -125,6 +125,33 @@ pub(super) fn perspective(
     rounded(aim, back, if distance > 1e-3 * size { distance } else { size })
 }
 
+/// The width in view at a point, m, that shows all of the bounds from there in the directions `axes` (right, up and back). `rays` is the
+/// tangent of half of the horizontal angle. `None` for parallel rays.
+pub(super) fn view_for(
+    bounds: Bounds,
+    aim: DVec3,
+    axes: (DVec3, DVec3, DVec3),
+    rays: Option<f64>,
+    (output, free): (Output, Free),
+) -> f64 {
+    let aspect = f64::from(output.width) / f64::from(output.height);
+    let corners = corners(bounds);
+    match rays {
+        Some(horizontal) => {
+            let half = free.half * horizontal;
+            let field = Field { horizontal, vertical: horizontal / aspect, center: 0.0, half };
+            2.0 * horizontal * distance(&corners, aim, axes, field)
+        }
+        None => {
+            let half = |corner: DVec3| {
+                let offset = corner - aim;
+                (offset.dot(axes.0).abs() / free.half).max(offset.dot(axes.1).abs() * aspect)
+            };
+            2.0 * corners.into_iter().map(half).fold(0.0, f64::max) / FILL
+        }
+    }
+}
+
 /// Places an orthographic camera in the direction `towards` from its aim. Also returns the width in view that shows all of the bounds, m.
 pub(super) fn orthographic(
     bounds: Bounds,

@@ -51,6 +51,7 @@ mod surroundings;
 mod tests;
 mod text;
 mod thing;
+mod track;
 mod trails;
 
 pub use bar::Bar;

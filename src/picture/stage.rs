@@ -70,18 +70,23 @@ pub struct Scenery {
 
 impl Scenery {
     /// Computes the sizes for a camera that frames the bounds `framed` and sees a width of `view` (m). `framed` may be a part of `whole`,
-    /// the bounds of the run.
-    pub(super) fn new(scene: &Scene, framed: Bounds, whole: Bounds, view: f64, part: Part) -> Scenery {
+    /// the bounds of the run. `along` is the mean height of the aims of a camera that goes along with the motion, m.
+    pub(super) fn new(
+        scene: &Scene,
+        framed: Bounds,
+        whole: Bounds,
+        (view, part, along): (f64, Part, Option<f64>),
+    ) -> Scenery {
         let around = scene.environment.ground.as_ref();
         let framed_size = size(framed);
         let ground =
             around.and_then(|ground| ground.height).unwrap_or_else(|| just_under(whole.min.y, framed_size));
         let deep = || two_digits_up((framed.max.y - ground).max(framed_size));
-        // A camera that follows a body is usually high above the ground, and sees far.
+        // A camera that goes along with the motion may be high above the ground, and sees far.
         let (depth, far) = match part {
             Part::Whole => (0.0, 1.0),
             Part::Start(_) => (deep(), 1.0),
-            Part::AroundBody(_) => (deep(), 2.0),
+            Part::Along => (two_digits_up((along.unwrap_or(ground) - ground).max(view)), 2.0),
         };
         let size = far * framed_size.max(depth);
         // A camera close to a long motion sees only a part of it, so the tiles must fit the picture.

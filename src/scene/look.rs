@@ -175,12 +175,36 @@ pub struct Camera {
     pub roll: f64,
     /// The motion of the camera, such as an orbit around its target.
     pub motion: CameraMotion,
+    /// The part of the motion that a camera without a location shows. `None` for a part that jabuka chooses.
+    pub auto: Option<Auto>,
     /// The projection of the camera: perspective or orthographic.
     pub projection: Projection,
     /// The blur of objects that are out of focus. `None` if all objects are sharp.
     pub blur: Option<Blur>,
     /// The shutter, which gives motion blur. `None` for frames without motion blur.
     pub shutter: Option<Shutter>,
+}
+
+/// The part of the motion that a camera without a location shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Auto {
+    /// The motion of the whole run, by a camera that stands still.
+    Whole,
+    /// What moves at each time, by a camera that goes along smoothly.
+    Track,
+}
+
+impl Auto {
+    /// Both parts.
+    pub const ALL: [Auto; 2] = [Auto::Whole, Auto::Track];
+
+    /// Returns the name of the part in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Auto::Whole => "whole",
+            Auto::Track => "track",
+        }
+    }
 }
 
 impl Camera {

@@ -128,8 +128,8 @@ pub use joint::{Joint, JointKind, JointLook, PrescribedCoordinate};
 pub use label::{Corner, Format, Grid, GridPlane, Label, LabelPlace, Piece, ScaleBar, Side};
 pub use library::{LibraryMaterial, MATERIALS, Pattern, PlainLook};
 pub use look::{
-    Blur, Camera, CameraMotion, DecimalSign, Environment, Finish, Follow, Ground, Include, Layout, Light,
-    LightKind, Look, Material, Output, OwnTemplate, PovRay, Projection, SdlPiece, Shutter, Sky, View,
+    Auto, Blur, Camera, CameraMotion, DecimalSign, Environment, Finish, Follow, Ground, Include, Layout,
+    Light, LightKind, Look, Material, Output, OwnTemplate, PovRay, Projection, SdlPiece, Shutter, Sky, View,
 };
 pub use mark::{Angle, Area, ArrowMark, ArrowOwner, Components, Distance, Leg};
 pub use measure::{

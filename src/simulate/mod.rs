@@ -65,6 +65,7 @@
 
 mod approaches;
 mod build;
+mod course;
 mod diagnose;
 mod diverged;
 mod energy_error;
@@ -108,6 +109,7 @@ use crate::scene::{ForceKind, Scene, in_string};
 
 pub(crate) use build::forces;
 pub use build::{lists_contacts, world};
+pub use course::Stretch;
 pub use diverged::{Cause, Diverged, ShorterStep};
 pub(crate) use energy_error::EnergyError;
 pub use energy_error::EnergyScale;

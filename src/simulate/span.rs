@@ -32,6 +32,8 @@ pub struct Span {
     /// The box around everything with a known size: bodies, particles, axes, arrows with a given scale, and the fixed ends of springs and
     /// joints.
     pub seen: Bounds,
+    /// The same without fixed bodies, but with the ends of springs and joints at them. If nothing moves, the box around all that is seen.
+    pub subject: Bounds,
     /// The reach of arrows whose scale is chosen after the run, indexed by [`Quantity::number`].
     pub arrows: [Reach; Quantity::SCALE_COUNT],
 }
@@ -47,12 +49,21 @@ pub(super) struct ArrowNow {
     pub(super) vector: DVec3,
 }
 
+/// The span up to the last frame.
+struct Now {
+    /// The span, whose boxes `moving` and `subject` are not yet those of what moves.
+    span: Span,
+    /// The box around moving bodies and particles. `None` if nothing moves.
+    moving: Option<Bounds>,
+    /// The box around what moves, with its axes and arrows, and around the fixed ends of springs and joints.
+    subject: Option<Bounds>,
+}
+
 /// Collects the spans of a run, frame by frame.
 #[derive(Default)]
 pub(super) struct Spans {
     kept: Vec<Span>,
-    /// The span up to the last frame, and the box around its moving bodies and particles. The box is `None` if nothing moves.
-    now: Option<(Span, Option<Bounds>)>,
+    now: Option<Now>,
     paths: Paths,
     has_arrows: bool,
     /// The box around the particles of all frames.
@@ -72,31 +83,26 @@ impl Spans {
         for frame in bodies {
             let body = &scene.bodies[frame.id];
             let Some(here) = Bounds::of(body, frame) else { continue };
-            let (span, moving) = self.now.get_or_insert_with(|| Spans::begin(scene, time, here));
-            span.bounds = span.bounds.union(here);
+            let now = self.now.get_or_insert_with(|| Now::begin(scene, time, here));
+            now.span.bounds = now.span.bounds.union(here);
+            let seen = now.span.see_showing(here, body, frame);
             if !body.start.fixed {
-                *moving = Some(moving.map_or(here, |all| all.union(here)));
+                add(&mut now.moving, here);
+                add(&mut now.subject, seen);
             }
-            let seen = span.see_showing(here, body, frame);
             self.paths.see(frame.id, body.start.fixed, here, seen);
             self.has_arrows |= body.showing.arrows.iter().any(Option::is_some);
         }
-        let Some((span, _)) = &mut self.now else { return };
+        let Some(now) = &mut self.now else { return };
         let mut arrows = arrows.peekable();
         self.has_arrows |= arrows.peek().is_some();
-        span.see_arrows(arrows);
+        now.span.see_arrows(arrows);
         self.keep(time);
-    }
-
-    /// Begins the first span with a box, and with the fixed ends of springs and joints.
-    fn begin(scene: &Scene, time: f64, here: Bounds) -> (Span, Option<Bounds>) {
-        let seen = anchors(scene).map(Bounds::point).fold(here, Bounds::union);
-        (Span { until: time, bounds: here, moving: here, seen, arrows: Default::default() }, None)
     }
 
     /// Updates the time of the present span, and stores a copy if the span has grown enough.
     fn keep(&mut self, time: f64) {
-        let Some((span, _)) = &mut self.now else { return };
+        let Some(Now { span, .. }) = &mut self.now else { return };
         span.until = time;
         let grown = |last: &Span| span.seen.diagonal() > STORED_GROWTH_FACTOR * last.seen.diagonal();
         if self.kept.last().is_none_or(grown) {
@@ -106,17 +112,18 @@ impl Spans {
 
     /// Adds the box around the particles of a frame at a time (s).
     pub(super) fn see_particles(&mut self, scene: &Scene, time: f64, here: Bounds) {
-        let (span, moving) = self.now.get_or_insert_with(|| Spans::begin(scene, time, here));
-        span.bounds = span.bounds.union(here);
-        span.seen = span.seen.union(here);
-        *moving = Some(moving.map_or(here, |all| all.union(here)));
+        let now = self.now.get_or_insert_with(|| Now::begin(scene, time, here));
+        now.span.bounds = now.span.bounds.union(here);
+        now.span.seen = now.span.seen.union(here);
+        add(&mut now.moving, here);
+        add(&mut now.subject, here);
         self.particles = Some(self.particles.map_or(here, |all| all.union(here)));
         self.keep(time);
     }
 
     /// The box around all bodies and particles so far. `None` if all bodies are planes and there are no particles.
     pub(super) fn bounds(&self) -> Option<Bounds> {
-        self.now.as_ref().map(|(span, _)| span.bounds)
+        self.now.as_ref().map(|now| now.span.bounds)
     }
 
     /// Returns the span of the whole run without strays, the bodies that fly far away. `None` if there are no strays, or if the scene
@@ -129,7 +136,7 @@ impl Spans {
         let add = |bounds: Bounds| self.particles.map_or(bounds, |all| all.union(bounds));
         let seen = anchors(scene).map(Bounds::point).fold(rest.seen, Bounds::union);
         let (bounds, moving, seen) = (add(rest.bounds), add(rest.moving), add(seen));
-        Some(Span { bounds, moving, seen, ..self.now()? })
+        Some(Span { bounds, moving, seen, subject: seen, ..self.now()? })
     }
 
     /// Returns all stored spans by increasing time. The last is the span of the whole run.
@@ -143,12 +150,45 @@ impl Spans {
     }
 
     fn now(&self) -> Option<Span> {
-        let (span, moving) = self.now.as_ref()?;
-        Some(Span { moving: moving.unwrap_or(span.bounds), ..span.clone() })
+        let Now { span, moving, subject } = self.now.as_ref()?;
+        let subject = subject.filter(|_| moving.is_some()).unwrap_or(span.seen);
+        Some(Span { moving: moving.unwrap_or(span.bounds), subject, ..span.clone() })
     }
 }
 
+impl Now {
+    /// Begins the first span with a box, and with the fixed ends of springs and joints.
+    fn begin(scene: &Scene, time: f64, here: Bounds) -> Now {
+        let anchors = anchors(scene).map(Bounds::point).reduce(Bounds::union);
+        let seen = anchors.map_or(here, |anchors| anchors.union(here));
+        let span =
+            Span { until: time, bounds: here, moving: here, seen, subject: seen, arrows: Default::default() };
+        Now { span, moving: None, subject: anchors }
+    }
+}
+
+/// Adds a box to another one.
+fn add(all: &mut Option<Bounds>, here: Bounds) {
+    *all = Some(all.map_or(here, |all| all.union(here)));
+}
+
 impl Span {
+    /// Returns the span that a picture shows. Fixed bodies that are much larger than all that moves, such as a wide floor, are shown in part.
+    #[must_use]
+    pub fn framed(&self) -> Span {
+        /// The smallest size of what moves, relative to all, at which fixed bodies are shown whole.
+        const MIN_SIZE_OF_SUBJECT: f64 = 1.0 / 3.0;
+        /// How far beyond what moves fixed bodies are shown then, relative to the size of what moves.
+        const SHOWN_BEYOND_SUBJECT: f64 = 0.5;
+        let [subject, all] = [self.subject, self.seen].map(|bounds| (bounds.max - bounds.min).max_element());
+        if subject >= MIN_SIZE_OF_SUBJECT * all || subject <= 0.0 {
+            return self.clone();
+        }
+        let beyond = DVec3::splat(SHOWN_BEYOND_SUBJECT * subject);
+        let shown = Bounds { min: self.subject.min - beyond, max: self.subject.max + beyond };
+        Span { bounds: self.bounds.within(shown), seen: self.seen.within(shown), ..self.clone() }
+    }
+
     /// Adds arrows of joints, weights, contact forces and named forces.
     fn see_arrows(&mut self, arrows: impl Iterator<Item = ArrowNow>) {
         for ArrowNow { quantity, scale, root, vector } in arrows {
@@ -189,7 +229,7 @@ impl Span {
 
 impl Bounds {
     /// The box around a body in its drawn size. `None` for a plane, which has no bounds.
-    fn of(body: &Body, frame: &BodySnapshot) -> Option<Bounds> {
+    pub(super) fn of(body: &Body, frame: &BodySnapshot) -> Option<Bounds> {
         let (shape, factor) = (&body.shape, body.look.scale);
         let reach =
             |direction: DVec3| shape.support(frame.orientation, direction).map(|reach| reach * factor);
@@ -207,6 +247,11 @@ impl Bounds {
     #[must_use]
     pub fn union(self, other: Bounds) -> Bounds {
         Bounds { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+
+    /// The part of the box in another box that overlaps it.
+    fn within(self, other: Bounds) -> Bounds {
+        Bounds { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
     /// The length of the box's diagonal, m.

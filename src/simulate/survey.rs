@@ -26,6 +26,7 @@ use spreads::Spreads;
 use stretched::Gaps;
 pub use stretched::StretchedJoint;
 
+use super::course::{Course, Stretch};
 use super::overlap::{Overlap, Watch};
 use super::particles::Clouds;
 use super::requested_sizes::RequestedSizes;
@@ -46,6 +47,8 @@ pub struct Survey {
     /// The space of the whole run without strays, the bodies that fly far away. Of each stray, only its first frame is included. `None` if
     /// there are no strays.
     pub without_strays: Option<Span>,
+    /// Where the moving bodies are in the course of the run, without bodies that have passed through a plane. Empty if nothing moves.
+    pub course: Vec<Stretch>,
     /// The first passage of a body through each plane, including a ground with a given height. Empty in scenes with contacts.
     pub crossings: Vec<Crossing>,
     /// The first body that falls below height 0 without end, in a scene with a ground and gravity, but no contacts.
@@ -137,6 +140,7 @@ const SOME_PARTICLES: f64 = 500.0;
 pub struct Surveyor<'a> {
     scene: &'a Scene,
     spans: Spans,
+    course: Course,
     /// The planes that are watched for bodies passing through them. Each has a list of bodies that were not in contact with it at first.
     planes: Vec<Watched>,
     falls: Falls,
@@ -183,6 +187,7 @@ impl<'a> Surveyor<'a> {
         Surveyor {
             scene,
             spans: Spans::default(),
+            course: Course::new(scene),
             planes: planes(scene),
             falls: Falls::new(scene),
             free: free(scene).collect(),
@@ -240,9 +245,15 @@ impl<'a> Surveyor<'a> {
         let of_forces = of_forces.into_iter().map(|(_, arrow)| arrow);
         let arrows = self.arrows.of_joints(frame).chain(loads).chain(of_forces);
         self.spans.see(scene, frame.time, frame.bodies.iter().filter(counts), arrows);
+        for body in frame.bodies.iter().filter(counts).filter(|body| !scene.bodies[body.id].start.fixed) {
+            if let Some(here) = Bounds::of(&scene.bodies[body.id], body) {
+                self.course.see(frame.index, frame.time, here);
+            }
+        }
         self.clouds.note(frame);
         if let Some(here) = self.clouds.bounds(scene) {
             self.spans.see_particles(scene, frame.time, here);
+            self.course.see(frame.index, frame.time, here);
         }
         if let Some(contacts) = &mut self.contacts {
             let accounts = &frame.balance.accounts;
@@ -273,6 +284,7 @@ impl<'a> Surveyor<'a> {
         let Surveyor {
             scene,
             spans,
+            course,
             planes,
             falls,
             overlaps,
@@ -299,6 +311,7 @@ impl<'a> Surveyor<'a> {
         Survey {
             without_strays: spans.without_strays(scene),
             spans: spans.finish(),
+            course: course.finish(),
             crossings: planes.into_iter().filter_map(Watched::finish).collect(),
             fall: falls.finish(),
             overlap: overlaps.finish(),

@@ -32,7 +32,7 @@ impl Largest {
         followed: &FollowedValues,
     ) -> Option<Largest> {
         let body: &Body = largest(scene)?;
-        let whole = survey.spans.last()?;
+        let whole = survey.spans.last()?.framed();
         let pixels = |view: f64| 2.0 * half_width(body).unwrap_or(0.0) / view * f64::from(scene.output.width);
         let towards = framing::towards_camera(whole.moving, Sight::of(scene));
         let seen = framing::rounded_outward(whole.seen);
@@ -51,7 +51,7 @@ impl Largest {
         match part {
             Part::Whole => self.pixels < SMALLEST_SEEN,
             Part::Start(_) => true,
-            Part::AroundBody(_) => self.pixels_in_whole < SMALLEST_SEEN,
+            Part::Along => self.pixels_in_whole < SMALLEST_SEEN,
         }
     }
 }

@@ -109,14 +109,23 @@ impl Plan {
         let towards = framing::towards_camera(span.moving, Sight::of(scene));
         let eye_on = |bounds: Bounds| {
             let bounds = framing::rounded_outward(bounds);
-            MovingCamera::new(&scope.camera, bounds, towards, scene, &followed)
+            let still = MovingCamera::new(camera, bounds, towards, scene, &followed);
+            match &scope.track {
+                Some(track) => still.along(camera, Arc::clone(track)),
+                None => still,
+            }
         };
         // The sizes of arrows and grid are chosen for a camera that sees the bodies. The final camera also sees the ends of arrows and
         // grid.
         let first = eye_on(span.seen);
         let view = first.early(0.0).width_of_view(whole);
         let ink = colors::ink(scene.environment.is_dark());
-        let scenery = Scenery::new(scene, span.bounds, whole, view, scope.part);
+        let scenery = Scenery::new(
+            scene,
+            span.bounds,
+            whole,
+            (view, scope.part, scope.track.as_ref().map(|track| track.height())),
+        );
         let part = first.moves().then_some(view);
         let ruler = scene.grid.map(|grid| GridPlan::new(scene, grid, &scenery, part, ink));
         let longest = std::array::from_fn(|kind: usize| span.arrows[kind].largest);
@@ -129,11 +138,7 @@ impl Plan {
             seen = seen.union(grid.bounds());
         }
         seen = with_lines(scene, seen);
-        let eye = match scope.part {
-            // If the body falls through the ground, the camera stops above the ground.
-            Part::AroundBody(_) => eye_on(seen).within(span.bounds),
-            Part::Whole | Part::Start(_) => eye_on(seen),
-        };
+        let eye = eye_on(seen);
         let placed = eye.placed();
         let early = eye.early(0.0).width_of_view(whole);
         let arrows = Arrows::new(scene, longest, measures.clone());

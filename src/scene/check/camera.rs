@@ -11,8 +11,8 @@ use crate::scene::grammar::camera::{camera, follow, orbit};
 use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::{Key, KeySpec};
 use crate::scene::{
-    Blur, Camera, CameraMotion, Follow, Projection, Shutter, SimulationSettings, Varying, VaryingPoint, View,
-    value,
+    Auto, Blur, Camera, CameraMotion, Follow, Projection, Shutter, SimulationSettings, Varying, VaryingPoint,
+    View, value,
 };
 
 /// The value of `--view` that selects all views. No view can have this name.
@@ -24,6 +24,24 @@ const USUAL_ANGLE: f64 = 40.0;
 /// Reads the main camera from `[camera]`.
 pub(super) fn read(known: Known<'_, '_>, context: &mut Context<'_>) -> Camera {
     camera(&[known.root.table(&scene::CAMERA)], known, context)
+}
+
+/// Reads the part of the motion that a camera shows. Warns if the scene itself places or moves the camera.
+fn auto(tables: &[Keys<'_>], context: &mut Context<'_>) -> Option<Auto> {
+    let word = tables.iter().find_map(|keys| keys.get(&camera::AUTO))?;
+    let placing = [
+        &camera::LOCATION.spec,
+        &camera::LOOK_AT.spec,
+        &camera::KEYFRAMES.spec,
+        &camera::FOLLOW.spec,
+        &camera::ORBIT.spec,
+    ];
+    let other = placing.into_iter().find(|key| tables.iter().any(|keys| keys.has(key)));
+    if let (Some(other), Some(span)) = (other, tables[0].span(&camera::AUTO)) {
+        let message = format!("`auto` has no effect beside `{}`", other.name);
+        context.diagnostics.push(Diagnostic::warning(Code::NoEffect, message).at(span, ""));
+    }
+    Auto::ALL.into_iter().find(|auto| auto.name() == word && other.is_none())
 }
 
 /// Reads the cameras of all `[view.NAME]` tables. Each view inherits missing keys from the main camera.
@@ -102,6 +120,7 @@ fn camera(tables: &[Keys<'_>], known: Known<'_, '_>, context: &mut Context<'_>) 
         up,
         roll: roll.at(0.0, |_| 0.0),
         motion: moving,
+        auto: auto(tables, context),
         projection: if orthographic {
             Projection::Orthographic { width: number(&camera::WIDTH) }
         } else {

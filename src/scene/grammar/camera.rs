@@ -5,9 +5,14 @@ use super::key::table;
 use super::kind::{AXIS, NON_NEGATIVE, POSITIVE, VARYING_POINT, VECTOR};
 use super::motion::BETWEEN_KEYFRAMES;
 use super::{Bound, Collection, KeySpec, Rule};
+use crate::scene::Auto;
 
 fn projections() -> Vec<&'static str> {
     vec!["perspective", "orthographic"]
+}
+
+fn autos() -> Vec<&'static str> {
+    Auto::ALL.map(Auto::name).to_vec()
 }
 
 table! {
@@ -16,8 +21,7 @@ table! {
         .unit("m")
         .default(
             "fits the whole motion into the picture; of eight or more bodies, up to a third that \
-             fly far away are left out; if bodies would be too small, follows the only body above ground, or shows only the \
-             start of the motion",
+             fly far away are left out; if bodies would be too small, goes along with the motion"
         )
         .also(&["position", "pos", "eye", "from"]),
     LOOK_AT: Option<value::VaryingPoint> = KeySpec::new(
@@ -40,6 +44,13 @@ table! {
     .unit("degrees")
     .default_number(0.0)
     .also(&["tilt", "bank"]),
+    AUTO: Option<value::Text> = KeySpec::new(
+        "auto",
+        Choice(autos),
+        "What a camera without `location` shows: the whole motion, or what moves at each time, by a smooth move along with it",
+    )
+    .default("the whole motion; if bodies would be too small, `\"track\"`")
+    .also(&["automatic", "mode", "framing"]),
     KEYFRAMES: Any = KeySpec::new(
         "keyframes",
         Table(&keyframes::TABLE),

@@ -82,7 +82,7 @@ fn lines_fill_the_picture() {
             let places = [-point.x, point.x, -point.y / aspect, point.y / aspect];
             reached = std::array::from_fn(|edge| reached[edge].max(places[edge]));
         }
-        assert!(reached.iter().all(|reached| *reached > 1.0), "{show}: {reached:?}");
+        assert!(reached.iter().all(|reached| *reached > 0.95), "{show}: {reached:?}");
     }
 }
 
