@@ -21,7 +21,7 @@ const GOOD: f64 = 0.0094;
 const SMALL: f64 = 0.02;
 /// The largest width of the largest body in the pictures of a camera that goes along with the motion, relative to the width of the picture. More
 /// would hide where the motion goes.
-const ALONG: f64 = 0.05;
+const ALONG: f64 = 0.1;
 /// A camera goes along with the motion only if bodies then are usually at least so many times as large as in a picture of the whole run.
 const GAIN: f64 = 2.0;
 /// If they would be too small to be seen in a picture of the whole run, they are at least so many times as large in the best picture.

@@ -82,17 +82,22 @@ impl Scenery {
         let ground =
             around.and_then(|ground| ground.height).unwrap_or_else(|| just_under(whole.min.y, framed_size));
         let deep = || two_digits_up((framed.max.y - ground).max(framed_size));
-        // A camera that goes along with the motion may be high above the ground, and sees far.
-        let (depth, far) = match part {
-            Part::Whole => (0.0, 1.0),
-            Part::Start(_) => (deep(), 1.0),
-            Part::Along => (two_digits_up((along.unwrap_or(ground) - ground).max(view)), 2.0),
-        };
-        let size = far * framed_size.max(depth);
+        // A camera that goes along with the motion may be high above the ground.
+        let along = along.map(|aims| two_digits_up((aims - ground).max(view)));
+        let depth = along.unwrap_or_else(|| if part == Part::Whole { 0.0 } else { deep() });
         // A camera close to a long motion sees only a part of it, so the tiles must fit the picture.
         let fit = framed_size.min(two_digits_up(view));
         let usual_tile = tile(fit.max(depth));
         let given_tile = around.and_then(|ground| ground.tile).or(ruled_tile(scene, usual_tile));
+        let size = match along {
+            // The tiles reach along the motion, and as far beyond as they are clearly seen from the height of the camera.
+            Some(height) => {
+                let extent = framed.max - framed.min;
+                let clear = (usual_tile * height * CLEAR_TILES).sqrt();
+                (extent.x.max(extent.z) / 2.0 + clear) / TILES_FADE
+            }
+            None => framed_size.max(depth),
+        };
         Scenery {
             bounds: framed,
             ground,
@@ -122,6 +127,8 @@ fn size(bounds: Bounds) -> f64 {
 
 /// The distance over which tiles fade, relative to the size of the visible scene. Farther tiles are too flat to be drawn without moiré.
 const TILES_FADE: f64 = 3.5;
+/// The focal length at which a tile is about a pixel high at the end of the clearly seen ground, pixels: that of a picture of 440 pixels.
+const CLEAR_TILES: f64 = 600.0;
 /// The width of a clearly visible line, relative to the width of the picture: four pixels of 1280.
 const STROKE: f64 = 0.0031;
 /// The smallest width of a clearly visible line, pixels.

@@ -139,6 +139,28 @@ fn the_camera_goes_along_where_all_of_a_motion_would_leave_dots() {
     assert_eq!(part("ghosts.every = 0.5"), Part::Whole);
 }
 
+/// A floor of 20 m is shown in part around a ball that falls by 2 m; a ramp that is not much larger than the motion is shown whole.
+#[test]
+fn a_fixed_body_that_is_much_larger_than_the_motion_is_shown_in_part() {
+    let drawn = |floor: [f64; 3]| {
+        let (scene, plan) = plan(&format!(
+            "simulation = {{ duration = 0.6, gravity = [0, -9.81, 0] }}\n[environment]\nground = false\n\
+             [body.floor]\nshape.box.size = {floor:?}\nfixed = true\n\
+             [body.ball]\nshape.sphere.radius = 0.25\nlocation = [0, 3, 0]"
+        ));
+        let frame = frames(&scene).next().unwrap();
+        let camera = plan.camera(&frame);
+        let ball = camera.screen().project(DVec3::new(0.0, 3.0, 0.0)).unwrap();
+        let left = camera.screen().project(DVec3::new(-floor[0] / 2.0, 0.0, 0.0)).unwrap();
+        assert_eq!(plan.part(), Part::Whole);
+        (0.25 * ball.scale, left.x)
+    };
+    let (ball, left) = drawn([20.0, 0.5, 20.0]);
+    assert!(ball > 0.06 && left < -1.0, "{ball} {left}");
+    let (ball, left) = drawn([4.0, 0.5, 2.0]);
+    assert!(ball > 0.06 && left > -1.0, "{ball} {left}");
+}
+
 /// The left, right, bottom and top of a text in the image plane.
 fn extent(text: &Text<'_>) -> [f64; 4] {
     let wide = super::text::width(&text.says, text.height);

@@ -47,3 +47,32 @@ impl Course {
         self.stretches
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::simulate::survey;
+
+    /// A run of 2,001 frames has fewer stretches, which together have the box around all that moves.
+    #[test]
+    fn a_course_is_the_motion_in_at_most_so_many_parts() {
+        let scene = |duration: f64| {
+            let text = format!(
+                "simulation = {{ duration = {duration}, frame_rate = 100 }}\n\
+                 [body.ball]\nshape.sphere.radius = 0.5\nvelocity = [1, 0, 0]\n\
+                 [body.wall]\nshape.box.size = [1, 9, 9]\nlocation = [-30, 0, 0]\nfixed = true"
+            );
+            Scene::parse(&text).unwrap()
+        };
+        let course = survey(&scene(20.0), |_| {}).unwrap().course;
+        assert!((400..=MAX_STRETCHES).contains(&course.len()), "{}", course.len());
+        assert!(course.windows(2).all(|pair| pair[0].until < pair[1].from));
+        let all = course.iter().map(|stretch| stretch.bounds).reduce(Bounds::union).unwrap();
+        assert!(all.min == DVec3::splat(-0.5) && (all.max.x - 20.5).abs() < 1e-9, "{all:?}");
+        let course = survey(&scene(0.1), |_| {}).unwrap().course;
+        assert_eq!(course.len(), 11, "a stretch for each frame");
+        assert!(course.iter().all(|stretch| stretch.from == stretch.until));
+    }
+}
