@@ -97,7 +97,8 @@ impl Scope {
         // The camera ignores strays: a few bodies that fly far away from many others.
         let all = survey.without_strays.as_ref().unwrap_or(all);
         let in_whole = seen(all);
-        let along = (in_whole < SMALL && shows_motion(scene, camera)).then(|| along(width / ALONG));
+        let along = (in_whole < SMALL && shows_motion(scene, camera) && shows_bodies_alone(all, width))
+            .then(|| along(width / ALONG));
         let is_closer = |scope: &Scope| {
             let views = scope.track.as_ref().map(|track| track.views().map(|view| width / view / in_whole));
             views.is_some_and(|[best, usual]| usual > GAIN || in_whole < LEAST && best > GAIN_AT_BEST)
@@ -137,6 +138,14 @@ fn shows_motion(scene: &Scene, camera: &Camera) -> bool {
         && scene.grid.is_none()
         && !camera.motion.moves()
         && camera.look_at.is_none()
+}
+
+/// True if the picture shows only the moving bodies themselves, and hardly anything beyond them, such as the fixed ends of springs or long
+/// arrows. A camera that goes along with the bodies would not show these.
+fn shows_bodies_alone(span: &Span, width: f64) -> bool {
+    let beyond = 2.0 * width;
+    let Span { subject, moving, .. } = span;
+    subject.min.cmpge(moving.min - beyond).all() && subject.max.cmple(moving.max + beyond).all()
 }
 
 /// True if the scene does not place the camera.

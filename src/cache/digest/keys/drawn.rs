@@ -95,6 +95,7 @@ pub(super) const KEYS_THAT_DRAW: &[(&str, &[&str])] = &[
             "look_at",
             "up",
             "roll",
+            "auto",
             "keyframes",
             "follow",
             "orbit",
