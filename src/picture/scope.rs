@@ -81,13 +81,15 @@ impl Scope {
             MovingCamera::new(camera, bounds, towards, scene, followed)
         };
         let seen = |span: &Span| width / eye(span).placed().width_of_view(span.bounds);
-        let along = |least: f64| {
-            let track = Track::new(&survey.course, eye(all).placed(), least)?;
-            Some(Scope { track: Some(Arc::new(track)), ..scope(all, Part::Along) })
+        let along = |span: &Span| {
+            let placed = *eye(span).placed();
+            let least = (width / ALONG).min(placed.width_of_view(span.bounds));
+            let track = Arc::new(Track::new(&survey.course, &placed, least)?);
+            Some(Scope { track: Some(track), ..scope(span, Part::Along) })
         };
         match camera.auto {
             Some(Auto::Whole) => return scope(all, Part::Whole),
-            Some(Auto::Track) => return along(0.0).unwrap_or(scope(all, Part::Whole)),
+            Some(Auto::Track) => return along(all).unwrap_or(scope(all, Part::Whole)),
             None => {}
         }
         // A trail makes even a tiny body visible, so with trails the whole run is framed.
@@ -97,13 +99,15 @@ impl Scope {
         // The camera ignores strays: a few bodies that fly far away from many others.
         let all = survey.without_strays.as_ref().unwrap_or(all);
         let in_whole = seen(all);
-        let along = (in_whole < SMALL && shows_motion(scene, camera) && shows_bodies_alone(all, width))
-            .then(|| along(width / ALONG));
         let is_closer = |scope: &Scope| {
             let views = scope.track.as_ref().map(|track| track.views().map(|view| width / view / in_whole));
             views.is_some_and(|[best, usual]| usual > GAIN || in_whole < LEAST && best > GAIN_AT_BEST)
         };
-        if let Some(along) = along.flatten().filter(is_closer) {
+        if in_whole < SMALL
+            && shows_motion(scene, camera)
+            && shows_bodies_alone(all, width)
+            && let Some(along) = along(all).filter(is_closer)
+        {
             return along;
         }
         if in_whole >= LEAST {
