@@ -11,8 +11,8 @@
 //! lines, and the lengths of arrows without a scale, follow from the width of the camera's view: at each frame if the camera moves,
 //! otherwise once for the run.
 //!
-//! The camera shows the motion up to the last of several times at which the bodies are still large enough in the picture (`scope.rs`). If
-//! there is a single body over a ground, the camera follows it instead. The default lights are defined here, and again in
+//! The camera shows the whole motion. Where the bodies would be too small, it goes along with them (`track.rs`), or shows the motion up to the
+//! last of several times at which they are still large enough (`scope.rs`). The default lights are defined here, and again in
 //! `templates/lights.inc`, which a scene may replace. A test in `emit/stage.rs` checks that the two are equal.
 //!
 //! Numbers in scripts and texts are written by `number.rs`: as short as possible, and never as `-0`.
