@@ -64,6 +64,7 @@ impl Scope {
                 moving: NOTHING,
                 seen: NOTHING,
                 subject: NOTHING,
+                shown: NOTHING,
                 arrows,
             };
             return Scope { span, whole: NOTHING, part: Part::Whole, track: None };

@@ -159,6 +159,12 @@ fn a_fixed_body_that_is_much_larger_than_the_motion_is_shown_in_part() {
     assert!(ball > 0.06 && left < -1.0, "{ball} {left}");
     let (ball, left) = drawn([4.0, 0.5, 2.0]);
     assert!(ball > 0.06 && left > -1.0, "{ball} {left}");
+    // A post beside the ball is something to see, however large it is.
+    let text = "[body.ball]\nshape.sphere.radius = 0.1\n[body.post]\nshape.box.size = [1, 4, 1]\nlocation = [3, 2, 0]\nfixed = true";
+    let (scene, plan) = plan(text);
+    let frame = frames(&scene).next().unwrap();
+    let top = plan.camera(&frame).screen().project(DVec3::new(3.5, 4.0, 0.0)).unwrap();
+    assert!(top.x < 1.0 && top.y < 9.0 / 16.0, "{top:?}");
 }
 
 /// The left, right, bottom and top of a text in the image plane.

@@ -34,6 +34,9 @@ pub struct Span {
     pub seen: Bounds,
     /// The same without fixed bodies, but with the ends of springs and joints at them. If nothing moves, the box around all that is seen.
     pub subject: Bounds,
+    /// The part of all that is seen that a picture shows. Of fixed bodies around what moves that are larger, such as a wide floor, it shows only a
+    /// part.
+    pub shown: Bounds,
     /// The reach of arrows whose scale is chosen after the run, indexed by [`Quantity::number`].
     pub arrows: [Reach; Quantity::SCALE_COUNT],
 }
@@ -136,7 +139,7 @@ impl Spans {
         let add = |bounds: Bounds| self.particles.map_or(bounds, |all| all.union(bounds));
         let seen = anchors(scene).map(Bounds::point).fold(rest.seen, Bounds::union);
         let (bounds, moving, seen) = (add(rest.bounds), add(rest.moving), add(seen));
-        Some(Span { bounds, moving, seen, subject: seen, ..self.now()? })
+        Some(Span { bounds, moving, seen, subject: seen, shown: seen, ..self.now()? })
     }
 
     /// Returns all stored spans by increasing time. The last is the span of the whole run.
@@ -151,8 +154,32 @@ impl Spans {
 
     fn now(&self) -> Option<Span> {
         let Now { span, moving, subject } = self.now.as_ref()?;
-        let subject = subject.filter(|_| moving.is_some()).unwrap_or(span.seen);
-        Some(Span { moving: moving.unwrap_or(span.bounds), subject, ..span.clone() })
+        let subject = subject.filter(|_| moving.is_some());
+        Some(Span {
+            moving: moving.unwrap_or(span.bounds),
+            subject: subject.unwrap_or(span.seen),
+            shown: subject.map_or(span.seen, |subject| self.shown(subject, span.seen)),
+            ..span.clone()
+        })
+    }
+
+    /// The part of all that is seen that a picture of a subject shows.
+    fn shown(&self, subject: Bounds, seen: Bounds) -> Bounds {
+        /// The smallest size of the subject, relative to all, at which fixed bodies are shown whole.
+        const MIN_SIZE_OF_SUBJECT: f64 = 1.0 / 3.0;
+        /// How far beyond the subject fixed bodies are shown otherwise, relative to its size.
+        const SHOWN_BEYOND_SUBJECT: f64 = 0.5;
+        let size = subject.size();
+        if size >= MIN_SIZE_OF_SUBJECT * seen.size() {
+            return seen;
+        }
+        let beyond = DVec3::splat(SHOWN_BEYOND_SUBJECT * size);
+        let near = Bounds { min: subject.min - beyond, max: subject.max + beyond };
+        let shown = |fixed: Bounds| match fixed.size() > size && fixed.overlaps(near) {
+            true => fixed.within(near),
+            false => fixed,
+        };
+        self.paths.of_fixed().map(shown).fold(subject, Bounds::union)
     }
 }
 
@@ -161,8 +188,15 @@ impl Now {
     fn begin(scene: &Scene, time: f64, here: Bounds) -> Now {
         let anchors = anchors(scene).map(Bounds::point).reduce(Bounds::union);
         let seen = anchors.map_or(here, |anchors| anchors.union(here));
-        let span =
-            Span { until: time, bounds: here, moving: here, seen, subject: seen, arrows: Default::default() };
+        let span = Span {
+            until: time,
+            bounds: here,
+            moving: here,
+            seen,
+            subject: seen,
+            shown: seen,
+            arrows: Default::default(),
+        };
         Now { span, moving: None, subject: anchors }
     }
 }
@@ -173,20 +207,10 @@ fn add(all: &mut Option<Bounds>, here: Bounds) {
 }
 
 impl Span {
-    /// Returns the span that a picture shows. Fixed bodies that are much larger than all that moves, such as a wide floor, are shown in part.
+    /// Returns the span with the part of its boxes that a picture shows.
     #[must_use]
     pub fn framed(&self) -> Span {
-        /// The smallest size of what moves, relative to all, at which fixed bodies are shown whole.
-        const MIN_SIZE_OF_SUBJECT: f64 = 1.0 / 3.0;
-        /// How far beyond what moves fixed bodies are shown then, relative to the size of what moves.
-        const SHOWN_BEYOND_SUBJECT: f64 = 0.5;
-        let [subject, all] = [self.subject, self.seen].map(|bounds| (bounds.max - bounds.min).max_element());
-        if subject >= MIN_SIZE_OF_SUBJECT * all || subject <= 0.0 {
-            return self.clone();
-        }
-        let beyond = DVec3::splat(SHOWN_BEYOND_SUBJECT * subject);
-        let shown = Bounds { min: self.subject.min - beyond, max: self.subject.max + beyond };
-        Span { bounds: self.bounds.within(shown), seen: self.seen.within(shown), ..self.clone() }
+        Span { bounds: self.bounds.within(self.shown), seen: self.seen.within(self.shown), ..self.clone() }
     }
 
     /// Adds arrows of joints, weights, contact forces and named forces.
@@ -252,6 +276,15 @@ impl Bounds {
     /// The part of the box in another box that overlaps it.
     fn within(self, other: Bounds) -> Bounds {
         Bounds { min: self.min.max(other.min), max: self.max.min(other.max) }
+    }
+
+    fn overlaps(self, other: Bounds) -> bool {
+        self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
+    }
+
+    /// The largest edge of the box, m.
+    fn size(self) -> f64 {
+        (self.max - self.min).max_element()
     }
 
     /// The length of the box's diagonal, m.

@@ -47,6 +47,11 @@ impl Paths {
         path.seen = path.seen.union(seen);
     }
 
+    /// The boxes around the fixed bodies, with their drawn axes, arrows and trails.
+    pub(super) fn of_fixed(&self) -> impl Iterator<Item = Bounds> {
+        self.0.iter().flatten().filter(|path| path.is_fixed).map(|path| path.seen)
+    }
+
     /// Finds the smallest number of strays without which the run is much smaller, and returns the space without them. `None` if there are
     /// no strays.
     pub(super) fn without_strays(&self) -> Option<WithoutStrays> {
