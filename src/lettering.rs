@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use crate::font::{Typeface, Weight};
+use crate::font::{Font, Typeface, Weight};
 
 /// The mark before lowered letters.
 const LOWER_MARK: char = '\u{11}';
@@ -79,6 +79,11 @@ pub fn runs(text: &str) -> impl Iterator<Item = Run<'_>> {
         }
         (!letters.is_empty()).then_some(run)
     })
+}
+
+/// Returns whether a set text has bold letters.
+pub fn has_bold(text: &str) -> bool {
+    runs(text).any(|run| run.weight == Weight::Bold)
 }
 
 /// Returns a set text without the marks at its ends.
@@ -357,11 +362,40 @@ fn with_minus(text: &str) -> String {
     letters.map(|(at, letter)| if letter == '-' && is_minus(at) { '−' } else { letter }).collect()
 }
 
+/// Digits and signs, and the letters of Unicode for them in superscripts.
+const DIGITS_AND_SUPERSCRIPTS: [&str; 2] = ["0123456789+−=()", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾"];
+
 /// Returns the letter of Unicode for a digit or sign in a superscript.
 fn superscript(letter: char) -> Option<char> {
-    const DIGITS_AND_SUPERSCRIPTS: [&str; 2] = ["0123456789+−=()", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾"];
     let number = DIGITS_AND_SUPERSCRIPTS[0].chars().position(|known| known == letter)?;
     DIGITS_AND_SUPERSCRIPTS[1].chars().nth(number)
+}
+
+/// Returns a set text with other letters for those that jabuka writes and a font does not have: raised digits for superscripts, and a hyphen
+/// for a minus sign.
+pub fn adapted(text: &str, font: &Font) -> String {
+    let mut adapted = String::with_capacity(text.len());
+    let mut is_raised = false;
+    for letter in text.chars() {
+        let is_missing = !MARKS.contains(&letter) && letter != '\n' && !font.has(letter);
+        let digit =
+            DIGITS_AND_SUPERSCRIPTS[1].chars().position(|known| known == letter).filter(|_| is_missing);
+        let digit = digit.and_then(|number| DIGITS_AND_SUPERSCRIPTS[0].chars().nth(number));
+        if digit.is_some() != is_raised {
+            adapted.push(if is_raised { END_MARK } else { RAISE_MARK });
+            is_raised = !is_raised;
+        }
+        let letter = digit.unwrap_or(letter);
+        adapted.push(match letter {
+            '−' if !font.has(letter) => '-',
+            '·' if is_missing => '×',
+            letter => letter,
+        });
+    }
+    if is_raised {
+        adapted.push(END_MARK);
+    }
+    adapted
 }
 
 #[cfg(test)]
@@ -466,6 +500,18 @@ mod tests {
         let wrong = |range, is_open| BadScript { range, is_open };
         assert_eq!(set_whole("é x_{max"), Err(vec![wrong(4..6, true)]));
         assert_eq!(set_whole("x_{} y^{ }"), Err(vec![wrong(1..4, false), wrong(6..10, false)]));
+    }
+
+    /// The font of the test has the letters of ASCII, `·` and `−` only.
+    #[test]
+    fn what_a_font_lacks_of_numbers_is_written_by_what_it_has() {
+        let bytes = include_bytes!("../tests/keys/files/letters.ttf").to_vec();
+        let own = Typeface::of_file("own.ttf".to_owned(), bytes).unwrap();
+        let font = own.font(Weight::Regular);
+        let text = set_whole("−7.5·10^{-6} m/s^2, v_0").unwrap();
+        let marked = "−7.5·10\u{12}−6\u{13} m/s\u{12}2\u{13}, v\u{11}0\u{13}";
+        assert_eq!(adapted(&text, font), marked);
+        assert_eq!(adapted(&text, Typeface::usual().font(Weight::Regular)), text);
     }
 
     #[test]

@@ -70,12 +70,12 @@ impl Scope {
             return Scope { span, whole: NOTHING, part: Part::Whole, track: None };
         };
         let whole = all.bounds;
-        let all = &all.framed();
         let scope = |span: &Span, part: Part| Scope { span: span.clone(), whole, part, track: None };
-        let Some(largest) = largest(scene).filter(|_| is_automatic(camera)) else {
+        if camera.auto == Some(Auto::Whole) || !is_automatic(camera) {
             return scope(all, Part::Whole);
-        };
-        let width = 2.0 * half_width(largest).unwrap_or(0.0);
+        }
+        let all = &all.framed();
+        let width = largest(scene).map_or(0.0, |largest| 2.0 * half_width(largest).unwrap_or(0.0));
         let eye = |span: &Span| {
             let bounds = rounded_outward(span.seen);
             let towards = towards_camera(span.moving, Sight::of(scene));
@@ -88,17 +88,19 @@ impl Scope {
             let track = Arc::new(Track::new(&survey.course, &placed, least)?);
             Some(Scope { track: Some(track), ..scope(span, Part::Along) })
         };
-        match camera.auto {
-            Some(Auto::Whole) => return scope(all, Part::Whole),
-            Some(Auto::Track) => return along(all).unwrap_or(scope(all, Part::Whole)),
-            None => {}
+        if camera.auto == Some(Auto::Track) {
+            return along(all).unwrap_or(scope(all, Part::Whole));
+        }
+        // Without bodies, there are only particles.
+        if width == 0.0 {
+            return scope(all, Part::Whole);
         }
         // A trail makes even a tiny body visible, so with trails the whole run is framed.
         if scene.bodies.iter().any(|body| body.showing.trail.is_some()) {
             return scope(all, Part::Whole);
         }
         // The camera ignores strays: a few bodies that fly far away from many others.
-        let all = survey.without_strays.as_ref().unwrap_or(all);
+        let all = &survey.without_strays.as_ref().map_or(all.clone(), Span::framed);
         let in_whole = seen(all);
         let is_closer = |scope: &Scope| {
             let views = scope.track.as_ref().map(|track| track.views().map(|view| width / view / in_whole));

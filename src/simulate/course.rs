@@ -22,18 +22,21 @@ pub(super) struct Course {
     /// The number of frames in a stretch.
     frames_per_stretch: usize,
     stretches: Vec<Stretch>,
+    /// The number of the last stretch of the run, also counting those at which nothing moves.
+    last: usize,
 }
 
 impl Course {
     pub(super) fn new(scene: &Scene) -> Course {
         let frames_per_stretch = scene.simulation.timeline.frames().div_ceil(MAX_STRETCHES).max(1);
-        Course { frames_per_stretch, stretches: Vec::new() }
+        Course { frames_per_stretch, stretches: Vec::new(), last: 0 }
     }
 
     /// Adds a part of what moves in a frame, with its time (s).
     pub(super) fn see(&mut self, frame: usize, time: f64, here: Bounds) {
-        let is_same = !frame.is_multiple_of(self.frames_per_stretch);
-        match self.stretches.last_mut().filter(|last| is_same || last.until == time) {
+        let number = frame / self.frames_per_stretch;
+        let is_same = std::mem::replace(&mut self.last, number) == number;
+        match self.stretches.last_mut().filter(|_| is_same) {
             Some(last) => {
                 last.until = time;
                 last.bounds = last.bounds.union(here);

@@ -139,7 +139,9 @@ impl Spans {
         let add = |bounds: Bounds| self.particles.map_or(bounds, |all| all.union(bounds));
         let seen = anchors(scene).map(Bounds::point).fold(rest.seen, Bounds::union);
         let (bounds, moving, seen) = (add(rest.bounds), add(rest.moving), add(seen));
-        Some(Span { bounds, moving, seen, subject: seen, shown: seen, ..self.now()? })
+        let subject = anchors(scene).map(Bounds::point).fold(moving, Bounds::union);
+        let shown = self.shown(subject, seen);
+        Some(Span { bounds, moving, seen, subject, shown, ..self.now()? })
     }
 
     /// Returns all stored spans by increasing time. The last is the span of the whole run.

@@ -23,7 +23,7 @@ use jabuka::simulate::Selection;
 use proptest::prelude::*;
 
 /// The public functions with a text argument that are tried here, as `file: name`.
-const TRIED: [&str; 49] = [
+const TRIED: [&str; 51] = [
     "catalog.rs: named",
     "diagnostic/code.rs: named",
     "diagnostic/mod.rs: at",
@@ -41,6 +41,8 @@ const TRIED: [&str; 49] = [
     "font.rs: outline",
     "font.rs: width",
     "integrator/mod.rs: by_name",
+    "lettering.rs: adapted",
+    "lettering.rs: has_bold",
     "lettering.rs: is_script",
     "lettering.rs: plain",
     "lettering.rs: runs",
@@ -221,6 +223,8 @@ proptest! {
         match lettering::set(&text, 0..text.len(), &mut None) {
             Ok(set) => {
                 prop_assert!(lettering::width(&set, Typeface::usual()).is_finite());
+                prop_assert!(lettering::runs(&lettering::adapted(&set, font)).all(|run| !run.letters.is_empty()));
+                let _ = lettering::has_bold(&set);
                 prop_assert!(lettering::without_marks(&set).len() <= set.len());
                 prop_assert!(lettering::plain(&set).len() <= set.len());
                 prop_assert!(lettering::runs(&set).all(|run| !run.letters.is_empty()));

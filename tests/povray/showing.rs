@@ -552,6 +552,16 @@ fn bold_letters_and_fonts_of_labels_are_drawn() {
     assert_eq!(near(middle), 0, "the space is where the widths of bold letters end");
     // The strokes of bold letters are 1.7 times as wide.
     assert!(count(true) > 1.3 * count(false), "{} {}", count(true), count(false));
+    // The file of bold letters lies beside the scripts also if only a value or the name of an angle is bold.
+    let angle = "[angle.'**a**']\nat = [0, 0, 0]\nfrom = [1, 0, 0]\nto = [0, 1, 0]\n";
+    for (text, is_bold) in [
+        (text.replace("**HH** HH", "**${t}**"), true),
+        (text.replace("**HH** HH", "HH") + angle, true),
+        (text.replace("**HH** HH", "${t}"), false),
+    ] {
+        let assets = Scene::parse(&text).unwrap_or_else(|report| panic!("{report}")).povray.assets;
+        assert_eq!(assets.iter().any(|asset| asset.name == "DejaVuSans-Bold.ttf"), is_bold, "{text}");
+    }
 
     let folder = tempfile::tempdir().unwrap();
     let own = text.replace("**HH** HH", "HH") + "font = 'letters.ttf'\n";

@@ -16,6 +16,8 @@ use super::plots;
 use super::screen::Screen;
 use super::surroundings::{Key, Movable};
 use super::text::{Text, Vertical, least_height};
+use crate::font::Weight;
+use crate::lettering;
 use crate::scene::{Color, Corner, DecimalSign, Label, LabelPlace, Output, Scene};
 use crate::simulate::{Frame, Ghost, Measures, MomentState};
 
@@ -188,7 +190,10 @@ impl Planned {
         let Block { label, height, .. } = &self.block;
         Text {
             name: &label.name,
-            says,
+            says: match &label.own_typeface {
+                Some(typeface) => lettering::adapted(&says, typeface.font(Weight::Regular)).into(),
+                None => says,
+            },
             x,
             y,
             height: *height,

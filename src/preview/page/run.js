@@ -55,10 +55,11 @@ export class Run {
   async loadFonts() {
     const load = async (_, number) => {
       const bytes = await binary(`/api/runs/${this.id}/fonts/${number}`);
-      return new FontFace(`label ${this.id} ${number}`, bytes).load();
+      // A browser may refuse a font that POV-Ray reads. Its labels are then set in the usual font.
+      return new FontFace(`label ${this.id} ${number}`, bytes).load().catch(() => null);
     };
     this.fonts = await Promise.all(this.description.fonts.map(load));
-    this.fonts.forEach((font) => document.fonts.add(font));
+    this.fonts.filter(Boolean).forEach((font) => document.fonts.add(font));
   }
 
   get frames() {
@@ -272,7 +273,7 @@ export class Run {
 
   /** Releases the data of the run, which is no longer shown. */
   close() {
-    this.fonts.forEach((font) => document.fonts.delete(font));
+    this.fonts.filter(Boolean).forEach((font) => document.fonts.delete(font));
     this.closed = true;
     this.pieces.clear();
     this.shown.clear();

@@ -36,7 +36,8 @@ fn auto(tables: &[Keys<'_>], context: &mut Context<'_>) -> Option<Auto> {
         &camera::FOLLOW.spec,
         &camera::ORBIT.spec,
     ];
-    let other = placing.into_iter().find(|key| tables.iter().any(|keys| keys.has(key)));
+    let fixing = (word == Auto::Track.name()).then_some(&camera::WIDTH.spec);
+    let other = placing.into_iter().chain(fixing).find(|key| tables.iter().any(|keys| keys.has(key)));
     if let (Some(other), Some(span)) = (other, tables[0].span(&camera::AUTO)) {
         let message = format!("`auto` has no effect beside `{}`", other.name);
         context.diagnostics.push(Diagnostic::warning(Code::NoEffect, message).at(span, ""));

@@ -227,10 +227,12 @@ impl Reader<'_, '_, '_> {
 
     /// Sets the subscripts, the superscripts and the bold letters in a byte range of the text. Reports scripts without an end.
     pub(super) fn set(&mut self, range: Range<usize>) -> Option<String> {
+        let was_bold = self.bold_from.is_some();
         let set = lettering::set(self.text, range.clone(), &mut self.bold_from);
         let wrong = match set {
             Ok(set) => {
-                if lettering::runs(&set).any(|run| run.weight == Weight::Bold) {
+                // A value behind the range may be bold, too.
+                if was_bold || self.bold_from.is_some() || lettering::has_bold(&set) {
                     self.note_bold(range);
                 }
                 return Some(set);

@@ -101,7 +101,9 @@ fn usual_text((name, span): (&str, Span), context: &mut Context<'_>) -> String {
             Diagnostic::error(Code::LabelLetter, message).at(span, "the name is the text of the angle");
         context.diagnostics.push(error.help("another text: `text = \"…\"`"));
     }
-    lettering::set(&text, 0..text.len(), &mut None).unwrap_or(text)
+    let set = lettering::set(&text, 0..text.len(), &mut None).unwrap_or(text);
+    context.fonts.has_bold |= lettering::has_bold(&set);
+    set
 }
 
 /// Reads a leg of an angle. Reports a leg without a direction.

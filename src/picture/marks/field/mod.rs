@@ -30,6 +30,8 @@ const FILLED_PART_OF_PICTURE: f64 = 0.96;
 const MIN_COSINE_OF_TILT: f64 = 0.3;
 /// The size of a region that fills the picture, relative to what the camera sees of its plane: its edges are outside of the picture.
 const SIZE_BEYOND_PICTURE: f64 = 1.05;
+/// The smallest part of the plane that a picture must show to be filled, relative to half of the region.
+const MIN_SEEN: f64 = 0.1;
 /// How far a region that fills the picture reaches at most, relative to one that does not. A camera that looks from aside sees far.
 const MAX_REACH: f64 = 3.0;
 
@@ -153,6 +155,10 @@ impl Region {
                 let position = position.clamp(-MAX_REACH, MAX_REACH);
                 *ends = [ends[0].min(position), ends[1].max(position)];
             }
+        }
+        // A camera that looks along the plane may see it only far away.
+        if ends.iter().any(|[low, high]| high - low < MIN_SEEN) {
+            return None;
         }
         let middle = self.point(ends.map(|[low, high]| (low + high) / 2.0));
         let half = [0, 1].map(|k| self.half[k] * SIZE_BEYOND_PICTURE * (ends[k][1] - ends[k][0]) / 2.0);
