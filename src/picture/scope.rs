@@ -147,12 +147,15 @@ fn shows_motion(scene: &Scene, camera: &Camera) -> bool {
         && camera.look_at.is_none()
 }
 
-/// True if the picture shows only the moving bodies themselves, and hardly anything beyond them, such as the fixed ends of springs or long
-/// arrows. A camera that goes along with the bodies would not show these.
+/// True if the moving bodies are nearly all that there is to see. A camera that goes along with them does not show fixed bodies far from their
+/// motion, the fixed ends of springs, or long arrows.
 fn shows_bodies_alone(span: &Span, width: f64) -> bool {
+    /// The largest size of all that is seen, relative to that of the motion.
+    const MAX_SIZE_OF_ALL: f64 = 2.0;
     let beyond = 2.0 * width;
-    let Span { subject, moving, .. } = span;
-    subject.min.cmpge(moving.min - beyond).all() && subject.max.cmple(moving.max + beyond).all()
+    let Span { subject, moving, seen, .. } = span;
+    let is_most = seen.diagonal() <= MAX_SIZE_OF_ALL * moving.diagonal();
+    is_most && subject.min.cmpge(moving.min - beyond).all() && subject.max.cmple(moving.max + beyond).all()
 }
 
 /// True if the scene does not place the camera.

@@ -129,6 +129,13 @@ fn the_camera_goes_along_where_all_of_a_motion_would_leave_dots() {
             assert!(along.stage().ground.is_none_or(|ground| camera.location().y > ground.height));
         }
     }
+    // A camera that went along with a ball between two posts would not show these.
+    let posts = [-60, 60].map(|x| {
+        format!("[body.post{x}]\nshape.sphere.radius = 0.1\nlocation = [{x}, 0, 0]\nfixed = true\n")
+    });
+    let (_, between) =
+        plan(&format!("[body.ball]\nshape.sphere.radius = 0.1\nvelocity = [2, 0, 0]\n{}", posts.concat()));
+    assert_ne!(between.part(), Part::Along);
     // The path of a throw fills the picture, and ghosts show where the ball was.
     let part = |keys: &str| {
         let simulation = "simulation = { duration = 4.5, gravity = [0, -9.81, 0] }";
