@@ -19,24 +19,24 @@ pub struct Stretch {
 
 /// Collects the course of a run, frame by frame.
 pub(super) struct Course {
-    /// The number of frames in a stretch.
-    frames_per_stretch: usize,
+    /// The duration of a stretch, s.
+    duration: f64,
     stretches: Vec<Stretch>,
-    /// The number of the last stretch of the run, also counting those at which nothing moves.
-    last: usize,
 }
 
 impl Course {
     pub(super) fn new(scene: &Scene) -> Course {
-        let frames_per_stretch = scene.simulation.timeline.frames().div_ceil(MAX_STRETCHES).max(1);
-        Course { frames_per_stretch, stretches: Vec::new(), last: 0 }
+        let timeline = &scene.simulation.timeline;
+        let frames_per_stretch = timeline.frames().div_ceil(MAX_STRETCHES).max(1);
+        #[allow(clippy::cast_precision_loss, reason = "there are fewer frames than a number can count")]
+        let frames = frames_per_stretch as f64;
+        // Half of an interval keeps rounding errors away from the ends of stretches.
+        Course { duration: (frames - 0.5) * timeline.interval(), stretches: Vec::new() }
     }
 
-    /// Adds a part of what moves in a frame, with its time (s).
-    pub(super) fn see(&mut self, frame: usize, time: f64, here: Bounds) {
-        let number = frame / self.frames_per_stretch;
-        let is_same = std::mem::replace(&mut self.last, number) == number;
-        match self.stretches.last_mut().filter(|_| is_same) {
+    /// Adds a part of what moves at the time of a frame (s).
+    pub(super) fn see(&mut self, time: f64, here: Bounds) {
+        match self.stretches.last_mut().filter(|last| time - last.from < self.duration) {
             Some(last) => {
                 last.until = time;
                 last.bounds = last.bounds.union(here);

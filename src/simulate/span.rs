@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::Reach;
+use super::course::{Course, Stretch};
 use super::strays::Paths;
 use super::vectors::{anchors, axis, root, shown};
 use crate::physics::BodySnapshot;
@@ -62,8 +63,7 @@ struct Now {
     subject: Option<Bounds>,
 }
 
-/// Collects the spans of a run, frame by frame.
-#[derive(Default)]
+/// Collects the spans of a run and its course, frame by frame.
 pub(super) struct Spans {
     kept: Vec<Span>,
     now: Option<Now>,
@@ -71,9 +71,21 @@ pub(super) struct Spans {
     has_arrows: bool,
     /// The box around the particles of all frames.
     particles: Option<Bounds>,
+    course: Course,
 }
 
 impl Spans {
+    pub(super) fn new(scene: &Scene) -> Spans {
+        Spans {
+            kept: Vec::new(),
+            now: None,
+            paths: Paths::default(),
+            has_arrows: false,
+            particles: None,
+            course: Course::new(scene),
+        }
+    }
+
     /// Adds a frame at a time (s). `bodies` are those that the camera must show, and `arrows` those of joints, weights, contact
     /// forces and named forces.
     pub(super) fn see<'a>(
@@ -92,6 +104,7 @@ impl Spans {
             if !body.start.fixed {
                 add(&mut now.moving, here);
                 add(&mut now.subject, seen);
+                self.course.see(time, here);
             }
             self.paths.see(frame.id, body.start.fixed, here, seen);
             self.has_arrows |= body.showing.arrows.iter().any(Option::is_some);
@@ -120,6 +133,7 @@ impl Spans {
         now.span.seen = now.span.seen.union(here);
         add(&mut now.moving, here);
         add(&mut now.subject, here);
+        self.course.see(time, here);
         self.particles = Some(self.particles.map_or(here, |all| all.union(here)));
         self.keep(time);
     }
@@ -144,14 +158,14 @@ impl Spans {
         Some(Span { bounds, moving, seen, subject, shown, ..self.now()? })
     }
 
-    /// Returns all stored spans by increasing time. The last is the span of the whole run.
-    pub(super) fn finish(mut self) -> Vec<Span> {
+    /// Returns all stored spans by increasing time, and the course of the run. The last span is that of the whole run.
+    pub(super) fn finish(mut self) -> (Vec<Span>, Vec<Stretch>) {
         let whole = self.now();
         if self.kept.last().map(|last| last.until) == whole.as_ref().map(|whole| whole.until) {
             self.kept.pop();
         }
         self.kept.extend(whole);
-        self.kept
+        (self.kept, self.course.finish())
     }
 
     fn now(&self) -> Option<Span> {
@@ -255,7 +269,7 @@ impl Span {
 
 impl Bounds {
     /// The box around a body in its drawn size. `None` for a plane, which has no bounds.
-    pub(super) fn of(body: &Body, frame: &BodySnapshot) -> Option<Bounds> {
+    fn of(body: &Body, frame: &BodySnapshot) -> Option<Bounds> {
         let (shape, factor) = (&body.shape, body.look.scale);
         let reach =
             |direction: DVec3| shape.support(frame.orientation, direction).map(|reach| reach * factor);

@@ -26,7 +26,7 @@ use spreads::Spreads;
 use stretched::Gaps;
 pub use stretched::StretchedJoint;
 
-use super::course::{Course, Stretch};
+use super::course::Stretch;
 use super::overlap::{Overlap, Watch};
 use super::particles::Clouds;
 use super::requested_sizes::RequestedSizes;
@@ -140,7 +140,6 @@ const SOME_PARTICLES: f64 = 500.0;
 pub struct Surveyor<'a> {
     scene: &'a Scene,
     spans: Spans,
-    course: Course,
     /// The planes that are watched for bodies passing through them. Each has a list of bodies that were not in contact with it at first.
     planes: Vec<Watched>,
     falls: Falls,
@@ -186,8 +185,7 @@ impl<'a> Surveyor<'a> {
     pub fn new(scene: &'a Scene) -> Surveyor<'a> {
         Surveyor {
             scene,
-            spans: Spans::default(),
-            course: Course::new(scene),
+            spans: Spans::new(scene),
             planes: planes(scene),
             falls: Falls::new(scene),
             free: free(scene).collect(),
@@ -245,15 +243,9 @@ impl<'a> Surveyor<'a> {
         let of_forces = of_forces.into_iter().map(|(_, arrow)| arrow);
         let arrows = self.arrows.of_joints(frame).chain(loads).chain(of_forces);
         self.spans.see(scene, frame.time, frame.bodies.iter().filter(counts), arrows);
-        for body in frame.bodies.iter().filter(counts).filter(|body| !scene.bodies[body.id].start.fixed) {
-            if let Some(here) = Bounds::of(&scene.bodies[body.id], body) {
-                self.course.see(frame.index, frame.time, here);
-            }
-        }
         self.clouds.note(frame);
         if let Some(here) = self.clouds.bounds(scene) {
             self.spans.see_particles(scene, frame.time, here);
-            self.course.see(frame.index, frame.time, here);
         }
         if let Some(contacts) = &mut self.contacts {
             let accounts = &frame.balance.accounts;
@@ -284,7 +276,6 @@ impl<'a> Surveyor<'a> {
         let Surveyor {
             scene,
             spans,
-            course,
             planes,
             falls,
             overlaps,
@@ -307,11 +298,13 @@ impl<'a> Surveyor<'a> {
         let law = scene.simulation.contacts;
         let (drift_scale, drift_energy) = error.scale(law);
         let (curves, left_out) = curves.finish();
+        let without_strays = spans.without_strays(scene);
+        let (spans, course) = spans.finish();
         let (color_ranges, value_ranges) = ranges.finish();
         Survey {
-            without_strays: spans.without_strays(scene),
-            spans: spans.finish(),
-            course: course.finish(),
+            without_strays,
+            spans,
+            course,
             crossings: planes.into_iter().filter_map(Watched::finish).collect(),
             fall: falls.finish(),
             overlap: overlaps.finish(),
