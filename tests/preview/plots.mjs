@@ -88,4 +88,24 @@ await tests({
     await seek(page, 20);
     assert.deepEqual(await labels(), ["xmax = 0,8\nm/s²"]);
   },
+  async labels_have_bold_letters_and_fonts_of_their_own({ open }) {
+    const page = await open();
+    await until(page, (jabuka) => jabuka.settled);
+    await until(page, () => document.querySelectorAll("#texts span").length === 2);
+    const { fonts, family, raised, bold, weights } = await page.evaluate(() => {
+      const [own, other] = document.querySelectorAll("#texts span");
+      return {
+        fonts: [...document.fonts].filter((font) => font.status === "loaded").map((font) => font.family),
+        family: getComputedStyle(own).fontFamily,
+        raised: [...own.querySelectorAll("small")].map((part) => part.textContent),
+        bold: [...other.querySelectorAll("b")].map((part) => part.textContent),
+        weights: [...other.querySelectorAll("b, small")].map((part) => getComputedStyle(part).fontWeight),
+      };
+    });
+    const own = fonts.find((name) => name.startsWith("label "));
+    assert.ok(own && family.includes(own), `${fonts}: ${family}`);
+    assert.deepEqual(raised, ["−6"], "the font has no letters for superscripts");
+    assert.deepEqual(bold, ["Bold", "0.0"]);
+    assert.deepEqual(weights, ["700", "700", "400"]);
+  },
 });

@@ -47,10 +47,10 @@ impl Scene {
     }
 
     /// Adds another file to the folder.
-    pub(crate) fn with(self, name: &str, text: &str) -> Scene {
+    pub(crate) fn with(self, name: &str, contents: impl AsRef<[u8]>) -> Scene {
         let path = self.folder().join(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(path, text).unwrap();
+        fs::write(path, contents).unwrap();
         self
     }
 

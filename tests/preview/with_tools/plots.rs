@@ -46,3 +46,20 @@ const LETTERS: &str = r#"
 in_the_browser! { Scene::of(LETTERS), "plots.mjs":
     labels_have_subscripts_lines_and_times,
 }
+
+const FONTS: &str = r#"
+    simulation.duration = 1
+    output.size = [640, 360]
+    [body.ball]
+    shape.sphere.radius = 1
+    [label.own]
+    text = "Own 10^{-6}"
+    font = "letters.ttf"
+    size = 0.1
+    [label.bold]
+    text = "**Bold ${t:.1}** m_0"
+    "#;
+
+in_the_browser! { Scene::of(FONTS).with("letters.ttf", include_bytes!("../../keys/files/letters.ttf")), "plots.mjs":
+    labels_have_bold_letters_and_fonts_of_their_own,
+}
