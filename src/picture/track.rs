@@ -26,7 +26,7 @@ pub(super) struct Track {
 
 impl Track {
     /// Plans the track of a camera along a course, with a width in view of at least `least` (m). `placed` has the direction and the lens of the
-    /// camera. `None` without a course.
+    /// camera. `None` without a course, or for a course of points, which have no size.
     #[allow(clippy::cast_precision_loss, reason = "there are few points")]
     pub(super) fn new(course: &[Stretch], placed: &Placed, least: f64) -> Option<Track> {
         let (first, last) = course.first().zip(course.last())?;
@@ -49,7 +49,9 @@ impl Track {
             DVec4::W * near.iter().copied().fold(0.0, f64::max)
         };
         let point = |(number, aim): (usize, &DVec4)| *aim + average(number, largest_near);
-        Some(Track { begin: first.from, interval, points: aims.iter().enumerate().map(point).collect() })
+        let points: Vec<DVec4> = aims.iter().enumerate().map(point).collect();
+        let is_seen = points.iter().all(|point| point.is_finite() && point.w > 0.0);
+        is_seen.then_some(Track { begin: first.from, interval, points })
     }
 
     /// The aim at a time (s), and the width in view there, m.
