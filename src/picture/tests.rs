@@ -146,6 +146,28 @@ fn the_camera_goes_along_where_all_of_a_motion_would_leave_dots() {
     assert_eq!(part("ghosts.every = 0.5"), Part::Whole);
 }
 
+/// Along a straight motion, averages are exact, also at the ends: the body stays in the middle of the picture, at the same size. Neither the
+/// place nor the unit of length matters.
+#[test]
+fn a_camera_along_a_straight_motion_keeps_the_body_in_the_middle() {
+    for unit in [1.0, 1e-6, 1e6] {
+        let lengths = [20.0, 3.0, 1.0].map(|length| length * unit);
+        let [speed, aside, radius] = lengths;
+        let (scene, plan) = plan(&format!(
+            "[body.car]\nshape.sphere.radius = {radius:e}\nlocation = [{aside:e}, {aside:e}, 0]\nvelocity = [{speed:e}, {aside:e}, 0]"
+        ));
+        assert_eq!(plan.part(), Part::Along);
+        let mut views = Vec::new();
+        for frame in frames(&scene) {
+            let camera = plan.camera(&frame);
+            let away = camera.look_at().distance(frame.bodies[0].location);
+            assert!(away < 1e-9 * 200.0 * unit, "{away} at {} s", frame.time);
+            views.push(camera.location().distance(camera.look_at()) / unit);
+        }
+        assert!(views.iter().all(|view| (view / views[0] - 1.0).abs() < 1e-9), "{views:?}");
+    }
+}
+
 /// A floor of 20 m is shown in part around a ball that falls by 2 m; a ramp that is not much larger than the motion is shown whole.
 #[test]
 fn a_fixed_body_that_is_much_larger_than_the_motion_is_shown_in_part() {
