@@ -41,8 +41,8 @@ pub(super) struct Description<'a> {
     shows: bool,
     /// True if the scene has particle emitters.
     particles: bool,
-    /// The files of the fonts that labels have of their own.
-    fonts: Vec<&'a str>,
+    /// The sizes of the files of the fonts that labels have of their own, bytes.
+    fonts: Vec<usize>,
     /// The surroundings of the bodies: camera, lights, ground. `None` until the run is finished.
     stage: Option<Stage>,
 }
@@ -206,7 +206,7 @@ pub(super) fn describe(run: &PreviewRun) -> Description<'_> {
         bounds: run.bounds().map(|Bounds { min, max }| [min.to_array(), max.to_array()]),
         shows: shows(scene, outcome),
         particles: !scene.emitters.is_empty(),
-        fonts: fonts(scene).map(|font| font.font(Weight::Regular).file_name()).collect(),
+        fonts: fonts(scene).map(|font| font.font(Weight::Regular).bytes().len()).collect(),
         stage: outcome.map(|outcome| stage(run, outcome)),
     }
 }

@@ -69,7 +69,7 @@ pub(super) fn router(server: Server) -> Router {
         .route("/api/events", get(events))
         .route("/api/runs/{id}", get(description))
         .route("/api/runs/{id}/forms", get(forms))
-        .route("/api/runs/{id}/fonts/{number}", get(font))
+        .route("/api/runs/{id}/fonts", get(fonts))
         .route("/api/runs/{id}/ghosts", get(ghosts))
         .route("/api/runs/{id}/poses", get(poses))
         .route("/api/runs/{id}/balance", get(balance))
@@ -189,13 +189,11 @@ async fn forms(State(server): State<Server>, Path(id): Path<RunId>) -> Result<Re
     blocking(move || Ok(binary(Body::from(describe::triangles(&run.scene))))).await
 }
 
-async fn font(
-    State(server): State<Server>,
-    Path((id, number)): Path<(RunId, usize)>,
-) -> Result<Response, Failed> {
+/// Sends the files of the fonts that labels have of their own, one after another. The description of the run has their sizes.
+async fn fonts(State(server): State<Server>, Path(id): Path<RunId>) -> Result<Response, Failed> {
     let run = server.run(id)?;
-    let font = describe::fonts(&run.scene).nth(number).ok_or(Failed::Gone)?;
-    Ok(binary(Body::from(font.font(Weight::Regular).bytes().to_vec())))
+    let files = describe::fonts(&run.scene).map(|font| font.font(Weight::Regular).bytes());
+    Ok(binary(Body::from(files.collect::<Vec<_>>().concat())))
 }
 
 async fn ghosts(State(server): State<Server>, Path(id): Path<RunId>) -> Result<Response, Failed> {

@@ -53,12 +53,16 @@ export class Run {
 
   /** Loads the fonts that labels have of their own. */
   async loadFonts() {
-    const load = async (_, number) => {
-      const bytes = await binary(`/api/runs/${this.id}/fonts/${number}`);
+    const sizes = this.description.fonts;
+    if (!sizes.length) return;
+    const files = await binary(`/api/runs/${this.id}/fonts`);
+    let end = 0;
+    const load = (size, number) => {
+      end += size;
       // A browser may refuse a font that POV-Ray reads. Its labels are then set in the usual font.
-      return new FontFace(`label ${this.id} ${number}`, bytes).load().catch(() => null);
+      return new FontFace(`label ${this.id} ${number}`, files.slice(end - size, end)).load().catch(() => null);
     };
-    this.fonts = await Promise.all(this.description.fonts.map(load));
+    this.fonts = await Promise.all(sizes.map(load));
     this.fonts.filter(Boolean).forEach((font) => document.fonts.add(font));
   }
 
