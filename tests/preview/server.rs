@@ -38,7 +38,7 @@ impl Scene {
         fs::read_dir(root().join("scenes/meshes")).unwrap().fold(copy, |copy, mesh| {
             let path = mesh.unwrap().path();
             let name = format!("meshes/{}", path.file_name().unwrap().to_str().unwrap());
-            copy.with(&name, &fs::read_to_string(path).unwrap())
+            copy.with(&name, fs::read(path).unwrap())
         })
     }
 
