@@ -175,17 +175,18 @@ pub(crate) const RUN_WARNINGS: [Code; 12] = [
 /// Returns the warning that the largest body is too small to be seen, in the images of this camera or in an image of the whole motion.
 fn too_small(scene: &Scene, plan: &Plan, largest: &Largest) -> Diagnostic {
     let name = &largest.name;
+    let noun = if largest.is_below_fixed { "the largest moving body" } else { "the largest body" };
     let in_whole = |does: String| {
         let pixels = largest.pixels_in_whole;
         format!(
-            "the camera {does}: in a picture of the whole run, the largest body, `{name}`, would be {pixels:.1} pixels wide"
+            "the camera {does}: in a picture of the whole run, {noun}, `{name}`, would be {pixels:.1} pixels wide"
         )
     };
     let message = match plan.part() {
         Part::Start(end) => in_whole(format!("frames only the first {} s", rounded(end))),
         Part::Along => in_whole("goes along with the motion".to_owned()),
         Part::Whole => {
-            format!("the largest body, `{name}`, is {:.1} pixels wide in the picture", largest.pixels)
+            format!("{noun}, `{name}`, is {:.1} pixels wide in the picture", largest.pixels)
         }
     };
     let is_followed = scene.camera.motion.follow.is_some() || plan.part() == Part::Along;

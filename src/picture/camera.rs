@@ -246,12 +246,15 @@ pub(super) struct MovingCamera {
 
 /// The motion of a camera.
 #[derive(Clone, Debug)]
-struct Moving {
-    camera: Camera,
-    /// The followed body: its index, its position at the start (m) and its half-width (m).
-    body: Option<(usize, DVec3, f64)>,
-    /// The way of a camera that goes along with the motion.
-    track: Option<Arc<Track>>,
+enum Moving {
+    /// The camera moves as the scene says.
+    Given {
+        camera: Camera,
+        /// The followed body: its index, its position at the start (m) and its half-width (m).
+        body: Option<(usize, DVec3, f64)>,
+    },
+    /// The camera goes along with the motion of the bodies.
+    Along(Arc<Track>),
 }
 
 impl MovingCamera {
@@ -268,15 +271,14 @@ impl MovingCamera {
             let body = &scene.bodies[follow.body];
             (follow.body, body.start.location, half_width(body).unwrap_or(1.0))
         });
-        let moving = camera.motion.moves().then(|| Moving { camera: camera.clone(), body, track: None });
+        let moving = camera.motion.moves().then(|| Moving::Given { camera: camera.clone(), body });
         let placed = Placed::new(camera, bounds, towards, scene);
         MovingCamera { placed, moving, followed: followed.clone() }
     }
 
     /// The camera that goes along a track.
-    pub(super) fn along(self, camera: &Camera, track: Arc<Track>) -> MovingCamera {
-        let moving = Some(Moving { camera: camera.clone(), body: None, track: Some(track) });
-        MovingCamera { moving, ..self }
+    pub(super) fn along(self, track: Arc<Track>) -> MovingCamera {
+        MovingCamera { moving: Some(Moving::Along(track)), ..self }
     }
 
     /// The camera before it moves.
@@ -286,7 +288,10 @@ impl MovingCamera {
 
     /// True if the camera follows measures.
     pub(super) fn follows_measures(&self) -> bool {
-        self.moving.as_ref().is_some_and(|moving| moving.camera.formulas().next().is_some())
+        match &self.moving {
+            Some(Moving::Given { camera, .. }) => camera.formulas().next().is_some(),
+            Some(Moving::Along(_)) | None => false,
+        }
     }
 
     /// True if the camera moves.
@@ -296,21 +301,22 @@ impl MovingCamera {
 
     /// The camera at a time (s), if the followed body and all measures stay at their initial values.
     pub(super) fn early(&self, time: f64) -> Placed {
-        let Some(Moving { camera, body, track }) = &self.moving else { return self.placed };
-        if let Some(track) = track {
-            let (aim, view) = track.at(time);
-            return self.placed.aimed(aim, view);
+        match &self.moving {
+            None => self.placed,
+            Some(Moving::Along(track)) => {
+                let (aim, view) = track.at(time);
+                self.placed.aimed(aim, view)
+            }
+            Some(Moving::Given { camera, body }) => {
+                let (_, start, size) = body.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
+                self.placed.moved(camera, size, [start, start], time, self.followed.at_start())
+            }
         }
-        let (_, start, size) = body.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
-        self.placed.moved(camera, size, [start, start], time, self.followed.at_start())
     }
 
     /// The camera of a frame.
     pub(super) fn at(&self, frame: &Frame) -> Placed {
-        let Some(Moving { camera, body, track }) = &self.moving else { return self.placed };
-        if track.is_some() {
-            return self.early(frame.time);
-        }
+        let Some(Moving::Given { camera, body }) = &self.moving else { return self.early(frame.time) };
         let (body, start, size) = body.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
         let behind = camera.motion.follow.and_then(|follow| {
             let lag = follow.lag.unwrap_or(0.0);

@@ -163,12 +163,7 @@ pub(super) fn orthographic(
     let (right, up, back) = tilt.axes(towards);
     let middle = (bounds.min + bounds.max) / 2.0;
     let aim = look_at.unwrap_or(middle);
-    let aspect = f64::from(output.width) / f64::from(output.height);
-    let half = |corner: DVec3| {
-        let offset = corner - aim;
-        (offset.dot(right).abs() / free.half).max(offset.dot(up).abs() * aspect)
-    };
-    let width = 2.0 * corners(bounds).into_iter().map(half).fold(0.0, f64::max) / FILL;
+    let width = view_for(bounds, aim, (right, up, back), None, (output, free));
     let aim = look_at.unwrap_or(aim - right * (free.center * width / 2.0));
     // With parallel rays, the picture is the same from any distance in front of all bodies.
     let distance = 2.0 * ((bounds.max - bounds.min).length() + aim.distance((bounds.min + bounds.max) / 2.0));

@@ -12,23 +12,23 @@ use crate::scene::{Auto, Body, Camera, Projection, Quantity, Scene};
 use crate::simulate::{Bounds, Reach, Span, Survey};
 
 /// The width at which the largest body is clearly visible, relative to the width of the picture: 4 pixels of 1280.
-const LEAST: f64 = 0.0031;
+const MIN_VISIBLE_WIDTH: f64 = 0.0031;
 /// The preferred width of the largest body in a picture of the start of the run, relative to the width of the picture: 12 pixels of 1280.
-const GOOD: f64 = 0.0094;
+const PREFERRED_WIDTH_AT_START: f64 = 0.0094;
 
 /// The width below which the largest body is so small that the camera goes along with the motion, relative to the width of the picture: 25
 /// pixels of 1280.
-const SMALL: f64 = 0.02;
+const MIN_WIDTH_IN_WHOLE: f64 = 0.02;
 /// The largest width of the largest body in the pictures of a camera that goes along with the motion, relative to the width of the picture. More
 /// would hide where the motion goes.
-const ALONG: f64 = 0.1;
+const MAX_WIDTH_ALONG: f64 = 0.1;
 /// A camera goes along with the motion only if bodies then are usually at least so many times as large as in a picture of the whole run.
-const GAIN: f64 = 2.0;
+const MIN_USUAL_GAIN: f64 = 2.0;
 /// If they would be too small to be seen in a picture of the whole run, they are at least so many times as large in the best picture.
-const GAIN_AT_BEST: f64 = 3.0;
+const MIN_GAIN_AT_BEST: f64 = 3.0;
 
 /// The bounds that are framed in an empty scene, m.
-const NOTHING: Bounds = Bounds { min: glam::DVec3::NEG_ONE, max: glam::DVec3::ONE };
+const BOUNDS_OF_NOTHING: Bounds = Bounds { min: glam::DVec3::NEG_ONE, max: glam::DVec3::ONE };
 
 /// The part of a run that a camera frames, with its bounds.
 #[derive(Clone, Debug)]
@@ -60,14 +60,14 @@ impl Scope {
             let arrows: [Reach; Quantity::SCALE_COUNT] = Default::default();
             let span = Span {
                 until: 0.0,
-                bounds: NOTHING,
-                moving: NOTHING,
-                seen: NOTHING,
-                subject: NOTHING,
-                shown: NOTHING,
+                bounds: BOUNDS_OF_NOTHING,
+                moving: BOUNDS_OF_NOTHING,
+                seen: BOUNDS_OF_NOTHING,
+                subject: BOUNDS_OF_NOTHING,
+                shown: BOUNDS_OF_NOTHING,
                 arrows,
             };
-            return Scope { span, whole: NOTHING, part: Part::Whole, track: None };
+            return Scope { span, whole: BOUNDS_OF_NOTHING, part: Part::Whole, track: None };
         };
         let whole = all.bounds;
         let scope = |span: &Span, part: Part| Scope { span: span.clone(), whole, part, track: None };
@@ -84,7 +84,7 @@ impl Scope {
         let seen = |span: &Span| width / eye(span).placed().width_of_view(span.bounds);
         let along = |span: &Span| {
             let placed = *eye(span).placed();
-            let least = (width / ALONG).min(placed.width_of_view(span.bounds));
+            let least = (width / MAX_WIDTH_ALONG).min(placed.width_of_view(span.bounds));
             let track = Arc::new(Track::new(&survey.course, &placed, least)?);
             Some(Scope { track: Some(track), ..scope(span, Part::Along) })
         };
@@ -104,23 +104,25 @@ impl Scope {
         let in_whole = seen(all);
         let is_closer = |scope: &Scope| {
             let views = scope.track.as_ref().map(|track| track.views().map(|view| width / view / in_whole));
-            views.is_some_and(|[best, usual]| usual > GAIN || in_whole < LEAST && best > GAIN_AT_BEST)
+            views.is_some_and(|[best, usual]| {
+                usual > MIN_USUAL_GAIN || in_whole < MIN_VISIBLE_WIDTH && best > MIN_GAIN_AT_BEST
+            })
         };
-        if in_whole < SMALL
+        if in_whole < MIN_WIDTH_IN_WHOLE
             && shows_motion(scene, camera)
             && shows_bodies_alone(all, width)
             && let Some(along) = along(all).filter(is_closer)
         {
             return along;
         }
-        if in_whole >= LEAST {
+        if in_whole >= MIN_VISIBLE_WIDTH {
             return scope(all, Part::Whole);
         }
         let come = all_have_come(scene);
         let reaching = |least: f64| {
             starts.iter().rev().map(Span::framed).find(|span| span.until >= come && seen(span) >= least)
         };
-        match reaching(GOOD).or_else(|| reaching(LEAST)) {
+        match reaching(PREFERRED_WIDTH_AT_START).or_else(|| reaching(MIN_VISIBLE_WIDTH)) {
             Some(start) => scope(&start, Part::Start(start.until)),
             None => scope(all, Part::Whole),
         }
@@ -133,8 +135,8 @@ fn all_have_come(scene: &Scene) -> f64 {
     come.filter(|time| *time <= scene.simulation.timeline.end()).fold(0.0, f64::max)
 }
 
-/// True if a camera that goes along with the motion shows that there is motion, since there is something that stands still, or several bodies.
-/// Ghosts and a grid show the way from a camera that stands still, and the scene may move the camera otherwise.
+/// True if a camera that goes along with the motion shows that there is motion: the ground or other bodies are seen to pass by. False if the
+/// scene itself moves the camera. False also if ghosts or a grid already show the way of the bodies: a camera that stands still shows them best.
 fn shows_motion(scene: &Scene, camera: &Camera) -> bool {
     let has_ground = scene.environment.ground.is_some() && !scene.output.transparent;
     let is_given = matches!(camera.projection, Projection::Orthographic { width: Some(_) });

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::camera::Placed;
 use super::framing;
-use super::scope::Part;
+use super::scope::{Part, Scope};
 use crate::decimal::decimal_step;
 use crate::scene::{Color, Environment, GridPlane, Output, Preset, Scene, Sky};
 use crate::simulate::Bounds;
@@ -69,22 +69,17 @@ pub struct Scenery {
 }
 
 impl Scenery {
-    /// Computes the sizes for a camera that frames the bounds `framed` and sees a width of `view` (m). `framed` may be a part of `whole`,
-    /// the bounds of the run. `along` is the mean height of the aims of a camera that goes along with the motion, m.
-    pub(super) fn new(
-        scene: &Scene,
-        framed: Bounds,
-        whole: Bounds,
-        (view, part, along): (f64, Part, Option<f64>),
-    ) -> Scenery {
+    /// Computes the sizes for a camera that frames a part of a run, and sees a width of `view` (m).
+    pub(super) fn new(scene: &Scene, scope: &Scope, view: f64) -> Scenery {
+        let (framed, whole) = (scope.span.bounds, scope.whole);
         let around = scene.environment.ground.as_ref();
         let framed_size = size(framed);
         let ground =
             around.and_then(|ground| ground.height).unwrap_or_else(|| just_under(whole.min.y, framed_size));
         let deep = || two_digits_up((framed.max.y - ground).max(framed_size));
         // A camera that goes along with the motion may be high above the ground.
-        let along = along.map(|aims| two_digits_up((aims - ground).max(view)));
-        let depth = along.unwrap_or_else(|| if part == Part::Whole { 0.0 } else { deep() });
+        let along = scope.track.as_ref().map(|track| two_digits_up((track.height() - ground).max(view)));
+        let depth = along.unwrap_or_else(|| if scope.part == Part::Whole { 0.0 } else { deep() });
         // A camera close to a long motion sees only a part of it, so the tiles must fit the picture.
         let fit = framed_size.min(two_digits_up(view));
         let usual_tile = tile(fit.max(depth));

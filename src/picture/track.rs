@@ -9,9 +9,9 @@ use super::camera::Placed;
 use crate::simulate::{Bounds, Stretch};
 
 /// The number of intervals between the points of a track.
-const INTERVALS: usize = 128;
-/// The number of points on each side of a point over which averages are taken. The camera answers to a jerk within an eighth of the run.
-const HALF_WINDOW: usize = 16;
+const INTERVALS_OF_TRACK: usize = 128;
+/// The number of points on each side of a point over which averages are taken: those of an eighth of the run.
+const POINTS_ON_EACH_SIDE: usize = 16;
 
 /// The aims and the views of a camera at equal intervals of time.
 #[derive(Clone, Debug)]
@@ -30,22 +30,23 @@ impl Track {
     #[allow(clippy::cast_precision_loss, reason = "there are few points")]
     pub(super) fn new(course: &[Stretch], placed: &Placed, least: f64) -> Option<Track> {
         let (first, last) = course.first().zip(course.last())?;
-        let interval = (last.until - first.from) / INTERVALS as f64;
+        let interval = (last.until - first.from) / INTERVALS_OF_TRACK as f64;
         if interval <= 0.0 {
             return None;
         }
-        let times = || (0..=INTERVALS).map(|number| first.from + interval * number as f64);
+        let times = || (0..=INTERVALS_OF_TRACK).map(|number| first.from + interval * number as f64);
         let middles: Vec<DVec4> = times().map(|time| middle(course, time).extend(0.0)).collect();
         let aims: Vec<DVec4> =
-            (0..=INTERVALS).map(|number| average(number, |at| beyond(&middles, at))).collect();
+            (0..=INTERVALS_OF_TRACK).map(|number| average(number, |at| beyond(&middles, at))).collect();
         let needed = |(time, aim): (f64, &DVec4)| {
             placed.view_for(around(course, time, interval), aim.truncate()).max(least)
         };
         let needed: Vec<f64> = times().zip(&aims).map(needed).collect();
         // The average of largest values is at least as large as each value.
         let largest_near = |at: isize| {
-            let at = usize::try_from(at).unwrap_or(0).min(INTERVALS);
-            let near = &needed[at.saturating_sub(HALF_WINDOW)..=(at + HALF_WINDOW).min(INTERVALS)];
+            let at = usize::try_from(at).unwrap_or(0).min(INTERVALS_OF_TRACK);
+            let near = &needed
+                [at.saturating_sub(POINTS_ON_EACH_SIDE)..=(at + POINTS_ON_EACH_SIDE).min(INTERVALS_OF_TRACK)];
             DVec4::W * near.iter().copied().fold(0.0, f64::max)
         };
         let point = |(number, aim): (usize, &DVec4)| *aim + average(number, largest_near);
@@ -58,8 +59,8 @@ impl Track {
     #[allow(clippy::cast_possible_truncation, reason = "the position is within the track")]
     #[allow(clippy::cast_precision_loss, clippy::cast_possible_wrap, reason = "there are few points")]
     pub(super) fn at(&self, time: f64) -> (DVec3, f64) {
-        let position = ((time - self.begin) / self.interval).clamp(0.0, INTERVALS as f64);
-        let number = (position as isize).min(INTERVALS as isize - 1);
+        let position = ((time - self.begin) / self.interval).clamp(0.0, INTERVALS_OF_TRACK as f64);
+        let number = (position as isize).min(INTERVALS_OF_TRACK as isize - 1);
         let points = [-1, 0, 1, 2].map(|offset| beyond(&self.points, number + offset));
         let point = spline(points, position - number as f64);
         (point.truncate(), point.w)
@@ -69,7 +70,7 @@ impl Track {
     pub(super) fn views(&self) -> [f64; 2] {
         let mut views: Vec<f64> = self.points.iter().map(|point| point.w).collect();
         views.sort_by(f64::total_cmp);
-        [views[0], views[INTERVALS / 2]]
+        [views[0], views[INTERVALS_OF_TRACK / 2]]
     }
 
     /// The mean height of the aims, m.
@@ -79,24 +80,23 @@ impl Track {
     }
 }
 
-/// The box around what moves at times that are at most an interval from a time.
+/// The box around all that moves from an interval before a time to an interval after it. At a time at which nothing moves, it is where
+/// something moved before.
 fn around(course: &[Stretch], time: f64, interval: f64) -> Bounds {
     let from = course.partition_point(|stretch| stretch.until < time - interval);
     let until = course.partition_point(|stretch| stretch.from <= time + interval);
     let near = course.get(from..until).unwrap_or_default().iter().map(|stretch| stretch.bounds);
-    // At a time at which nothing moves, the camera stays where something moved before.
-    let before = course[from.min(course.len() - 1).saturating_sub(1)].bounds;
-    near.reduce(Bounds::union).unwrap_or(before)
+    near.reduce(Bounds::union).unwrap_or(course[from.saturating_sub(1)].bounds)
 }
 
-/// The middle of what moves at a time, on a straight line between the middles of two stretches.
+/// The middle of what moves at a time, on a straight line through the middles of the two stretches beside this time.
 fn middle(course: &[Stretch], time: f64) -> DVec3 {
-    let next = course.partition_point(|stretch| stretch.from <= time);
-    let before = course[next.saturating_sub(1)];
-    let Some(next) = course.get(next).filter(|_| next > 0) else { return before.bounds.middle() };
-    let [begin, end] = [before, *next].map(|stretch| (stretch.from + stretch.until) / 2.0);
-    let part = ((time - begin) / (end - begin)).clamp(0.0, 1.0);
-    before.bounds.middle().lerp(next.bounds.middle(), part)
+    let after = course.partition_point(|stretch| stretch.middle() <= time).clamp(1, course.len().max(2) - 1);
+    let (Some(before), Some(after)) = (course.get(after - 1), course.get(after)) else {
+        return course[0].bounds.middle();
+    };
+    let part = (time - before.middle()) / (after.middle() - before.middle());
+    before.bounds.middle().lerp(after.bounds.middle(), part)
 }
 
 /// Returns a point of a series. Beyond its ends, it goes on as it does inside, point by point about its end.
@@ -112,7 +112,7 @@ fn beyond(points: &[DVec4], at: isize) -> DVec4 {
 /// The weighted average of values near a point, by a Hann window.
 #[allow(clippy::cast_possible_wrap, clippy::cast_precision_loss, reason = "there are few points")]
 fn average(number: usize, value: impl Fn(isize) -> DVec4) -> DVec4 {
-    let half = HALF_WINDOW as isize;
+    let half = POINTS_ON_EACH_SIDE as isize;
     let weight =
         |offset: isize| 0.5 + 0.5 * libm::cos(std::f64::consts::PI * offset as f64 / (half + 1) as f64);
     let (mut sum, mut total) = (DVec4::ZERO, 0.0);

@@ -17,6 +17,13 @@ pub struct Stretch {
     pub bounds: Bounds,
 }
 
+impl Stretch {
+    /// The middle of the stretch in time, s.
+    pub fn middle(&self) -> f64 {
+        (self.from + self.until) / 2.0
+    }
+}
+
 /// Collects the course of a run, frame by frame.
 pub(super) struct Course {
     /// The duration of a stretch, s.

@@ -112,7 +112,9 @@ impl Spans {
         let Some(now) = &mut self.now else { return };
         let mut arrows = arrows.peekable();
         self.has_arrows |= arrows.peek().is_some();
-        now.span.see_arrows(arrows);
+        for tip in now.span.see_arrows(arrows) {
+            add(&mut now.subject, Bounds::point(tip));
+        }
         self.keep(time);
     }
 
@@ -229,14 +231,18 @@ impl Span {
         Span { bounds: self.bounds.within(self.shown), seen: self.seen.within(self.shown), ..self.clone() }
     }
 
-    /// Adds arrows of joints, weights, contact forces and named forces.
-    fn see_arrows(&mut self, arrows: impl Iterator<Item = ArrowNow>) {
+    /// Adds arrows of joints, weights, contact forces and named forces. Returns the tips of those with a given scale.
+    fn see_arrows(&mut self, arrows: impl Iterator<Item = ArrowNow>) -> Vec<DVec3> {
+        let mut tips = Vec::new();
         for ArrowNow { quantity, scale, root, vector } in arrows {
-            match scale {
-                Some(scale) => self.seen = self.seen.union_if_finite(root + vector * scale),
+            match scale.map(|scale| root + vector * scale) {
+                Some(tip) if tip.is_finite() => tips.push(tip),
+                Some(_) => {}
                 None => self.arrows[quantity.number()].add(root, vector),
             }
         }
+        self.seen = tips.iter().copied().map(Bounds::point).fold(self.seen, Bounds::union);
+        tips
     }
 
     /// Adds a body with its drawn axes, arrows and trail. Returns the box around the body, its axes, its trail and its arrows with a given

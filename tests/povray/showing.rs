@@ -535,7 +535,7 @@ fn texts_are_as_wide_as_pov_ray_sets_them() {
     }
 }
 
-/// Bold words and a font of a label's own are drawn from their files, and stand where the metrics of these fonts say.
+/// POV-Ray sets bold words in the bold font, and a label in its own font. They are as wide as these fonts say.
 #[test]
 fn bold_letters_and_fonts_of_labels_are_drawn() {
     let text = format!(

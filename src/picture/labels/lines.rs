@@ -2,8 +2,8 @@
 
 use super::super::framing::Free;
 use super::super::text::{LINE, MARGIN};
-use super::height;
 use super::said::sample;
+use super::{adapted, height};
 use crate::lettering;
 use crate::scene::{Label, LabelPlace, Output, Piece};
 
@@ -80,6 +80,7 @@ struct Words {
 impl Words {
     fn of(label: &Label) -> Words {
         let text: String = label.text.iter().map(sample).collect();
+        let text = adapted(label, text.into());
         let wide = |words: &str| lettering::width(words, label.typeface());
         let mut lines: Vec<Vec<f64>> = Vec::new();
         for (separator, word) in parts(&text) {

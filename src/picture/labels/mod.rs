@@ -49,6 +49,14 @@ struct Planned {
     color: Color,
 }
 
+/// Replaces the letters of a text that the label's own font lacks by letters that it has.
+fn adapted<'a>(label: &Label, says: Cow<'a, str>) -> Cow<'a, str> {
+    match &label.own_typeface {
+        Some(typeface) => lettering::adapted(&says, typeface.font(Weight::Regular)).into(),
+        None => says,
+    }
+}
+
 impl Labels {
     /// Plans the labels of a scene. `ink` is their default color. `panels` are those of plots, which no label covers. `measures` are those of
     /// the scene.
@@ -190,10 +198,7 @@ impl Planned {
         let Block { label, height, .. } = &self.block;
         Text {
             name: &label.name,
-            says: match &label.own_typeface {
-                Some(typeface) => lettering::adapted(&says, typeface.font(Weight::Regular)).into(),
-                None => says,
-            },
+            says: adapted(label, says),
             x,
             y,
             height: *height,

@@ -11,11 +11,13 @@ use crate::simulate::{Bounds, Survey};
 /// The width below which a body looks like a dot, pixels.
 const SMALLEST_SEEN: f64 = 4.0;
 
-/// The largest body of a scene, and its size in the picture.
+/// The largest body of those that move or, if none does, of all, and its size in the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Largest {
     /// The name of the body.
     pub name: String,
+    /// Whether a fixed body is larger.
+    pub is_below_fixed: bool,
     /// The largest width of the body in any picture, pixels.
     pub pixels: f64,
     /// The width that the body would have if the camera framed the whole run, pixels.
@@ -39,6 +41,7 @@ impl Largest {
         let on_whole = MovingCamera::new(camera, seen, towards, scene, followed);
         Some(Largest {
             name: body.name.to_string(),
+            is_below_fixed: scene.bodies.iter().any(|other| half_width(other) > half_width(body)),
             pixels: pixels(narrowest_view(scene, eye, whole.bounds)),
             pixels_in_whole: pixels(on_whole.placed().width_of_view(whole.bounds)),
         })

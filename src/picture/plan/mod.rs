@@ -111,7 +111,7 @@ impl Plan {
             let bounds = framing::rounded_outward(bounds);
             let still = MovingCamera::new(camera, bounds, towards, scene, &followed);
             match &scope.track {
-                Some(track) => still.along(camera, Arc::clone(track)),
+                Some(track) => still.along(Arc::clone(track)),
                 None => still,
             }
         };
@@ -120,12 +120,7 @@ impl Plan {
         let first = eye_on(span.seen);
         let view = first.early(0.0).width_of_view(whole);
         let ink = colors::ink(scene.environment.is_dark());
-        let scenery = Scenery::new(
-            scene,
-            span.bounds,
-            whole,
-            (view, scope.part, scope.track.as_ref().map(|track| track.height())),
-        );
+        let scenery = Scenery::new(scene, &scope, view);
         let part = first.moves().then_some(view);
         let ruler = scene.grid.map(|grid| GridPlan::new(scene, grid, &scenery, part, ink));
         let longest = std::array::from_fn(|kind: usize| span.arrows[kind].largest);

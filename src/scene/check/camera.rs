@@ -27,22 +27,21 @@ pub(super) fn read(known: Known<'_, '_>, context: &mut Context<'_>) -> Camera {
 }
 
 /// Reads the part of the motion that a camera shows. Warns if the scene itself places or moves the camera.
-fn auto(tables: &[Keys<'_>], context: &mut Context<'_>) -> Option<Auto> {
+fn auto(tables: &[Keys<'_>], moving: &CameraMotion, context: &mut Context<'_>) -> Option<Auto> {
     let word = tables.iter().find_map(|keys| keys.get(&camera::AUTO))?;
-    let placing = [
-        &camera::LOCATION.spec,
-        &camera::LOOK_AT.spec,
-        &camera::KEYFRAMES.spec,
-        &camera::FOLLOW.spec,
-        &camera::ORBIT.spec,
-    ];
-    let fixing = (word == Auto::Track.name()).then_some(&camera::WIDTH.spec);
-    let other = placing.into_iter().chain(fixing).find(|key| tables.iter().any(|keys| keys.has(key)));
+    let auto = Auto::ALL.into_iter().find(|auto| auto.name() == word)?;
+    let mut others = vec![&camera::LOCATION.spec, &camera::KEYFRAMES.spec, &camera::FOLLOW.spec];
+    if auto == Auto::Track {
+        others.extend([&camera::LOOK_AT.spec, &camera::ORBIT.spec, &camera::WIDTH.spec]);
+        others.extend(moving.angle.is_some().then_some(&camera::ANGLE.spec));
+        others.extend(moving.roll.is_some().then_some(&camera::ROLL.spec));
+    }
+    let other = others.into_iter().find(|key| tables.iter().any(|keys| keys.has(key)));
     if let (Some(other), Some(span)) = (other, tables[0].span(&camera::AUTO)) {
         let message = format!("`auto` has no effect beside `{}`", other.name);
         context.diagnostics.push(Diagnostic::warning(Code::NoEffect, message).at(span, ""));
     }
-    Auto::ALL.into_iter().find(|auto| auto.name() == word && other.is_none())
+    Some(auto).filter(|_| other.is_none())
 }
 
 /// Reads the cameras of all `[view.NAME]` tables. Each view inherits missing keys from the main camera.
@@ -120,8 +119,8 @@ fn camera(tables: &[Keys<'_>], known: Known<'_, '_>, context: &mut Context<'_>) 
         look_at,
         up,
         roll: roll.at(0.0, |_| 0.0),
+        auto: auto(tables, &moving, context),
         motion: moving,
-        auto: auto(tables, context),
         projection: if orthographic {
             Projection::Orthographic { width: number(&camera::WIDTH) }
         } else {

@@ -14,10 +14,9 @@ use self::levels::Levels;
 use super::{Mark, Scale, Sketch};
 use crate::physics::BodySnapshot;
 use crate::picture::camera::Placed;
-use crate::picture::screen::Screen;
 use crate::picture::stage::Stage;
 use crate::picture::thing::{Form, Line, Thing};
-use crate::scene::{Color, DrawnField, FieldStyle, Output, Scene};
+use crate::scene::{Color, DrawnField, FieldStyle, Scene};
 use crate::simulate::FieldSampler;
 
 /// The radius of field lines and levels, in strokes.
@@ -72,9 +71,9 @@ pub(super) fn marks(scene: &Scene, stage: &Stage, (camera, view): (&Placed, f64)
     let mark = |(number, drawn): (usize, &DrawnField)| {
         let mut sampler = FieldSampler::new(scene, drawn)?;
         sampler.follow(0.0, &start);
-        let mut region = Region::new(scene, drawn, &sampler, &start, (camera, view));
+        let mut region = Region::new(drawn, &sampler, &start, (camera, view));
         if drawn.style != FieldStyle::Arrows {
-            region = region.filling(&camera.screen(), aspect(scene.output)).unwrap_or(region);
+            region = region.filling(camera).unwrap_or(region);
         }
         let radius = |body: &crate::scene::Body| body.drawn().bounding_radius().unwrap_or(0.0);
         let mut mark = FieldMark {
@@ -113,7 +112,6 @@ fn at_start(id: usize, body: &crate::physics::RigidBody) -> BodySnapshot {
 impl Region {
     /// Chooses the part of the plane that the camera sees.
     fn new(
-        scene: &Scene,
         drawn: &DrawnField,
         sampler: &FieldSampler,
         start: &[BodySnapshot],
@@ -135,14 +133,15 @@ impl Region {
         let right = camera.screen().right();
         let across = (right - normal * right.dot(normal)).normalize_or(normal.any_orthonormal_vector());
         let up = normal.cross(across);
-        let aspect = aspect(scene.output);
+        let aspect = camera.height_to_width();
         let tilt = towards.dot(normal).abs().max(MIN_COSINE_OF_TILT);
         let half = [FILLED_PART_OF_PICTURE * view / 2.0, FILLED_PART_OF_PICTURE * view / 2.0 * aspect / tilt];
         Region { middle, axes: [across, up], half }
     }
 
-    /// Returns the region that fills a picture with this ratio of height to width. `None` if a corner of the picture shows nothing of the plane.
-    fn filling(self, screen: &Screen, aspect: f64) -> Option<Region> {
+    /// Returns the region that fills the picture of a camera. `None` if a corner of the picture shows nothing of the plane.
+    fn filling(self, camera: &Placed) -> Option<Region> {
+        let (screen, aspect) = (camera.screen(), camera.height_to_width());
         let normal = self.axes[0].cross(self.axes[1]);
         let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
         for corner in [[-1.0, -aspect], [-1.0, aspect], [1.0, -aspect], [1.0, aspect]] {
@@ -179,11 +178,6 @@ impl Region {
     fn within(&self, vector: DVec3) -> DVec3 {
         self.axes[0] * vector.dot(self.axes[0]) + self.axes[1] * vector.dot(self.axes[1])
     }
-}
-
-/// The ratio of a picture's height to its width.
-fn aspect(output: Output) -> f64 {
-    f64::from(output.height) / f64::from(output.width)
 }
 
 /// The axis of the world that is nearest to a direction.
