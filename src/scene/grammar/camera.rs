@@ -21,8 +21,8 @@ table! {
         .unit("m")
         .default(
             "fits the whole motion into the picture; of eight or more bodies, up to a third that \
-             fly far away are left out; if bodies would be too small, goes along with the motion; \
-             of a fixed body that is much larger than the motion around which it is, such as a wide floor, a part is shown"
+             fly far away are left out; if bodies would be too small, goes along with the motion; of wide fixed bodies, such as a floor, only the part near \
+             the motion is shown"
         )
         .also(&["position", "pos", "eye", "from"]),
     LOOK_AT: Option<value::VaryingPoint> = KeySpec::new(
