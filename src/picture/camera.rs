@@ -249,7 +249,7 @@ pub(super) struct MovingCamera {
 enum Moving {
     /// The camera moves as the scene says.
     Given {
-        camera: Camera,
+        camera: Box<Camera>,
         /// The followed body: its index, its position at the start (m) and its half-width (m).
         body: Option<(usize, DVec3, f64)>,
     },
@@ -271,7 +271,7 @@ impl MovingCamera {
             let body = &scene.bodies[follow.body];
             (follow.body, body.start.location, half_width(body).unwrap_or(1.0))
         });
-        let moving = camera.motion.moves().then(|| Moving::Given { camera: camera.clone(), body });
+        let moving = camera.motion.moves().then(|| Moving::Given { camera: Box::new(camera.clone()), body });
         let placed = Placed::new(camera, bounds, towards, scene);
         MovingCamera { placed, moving, followed: followed.clone() }
     }
