@@ -5,7 +5,7 @@
 //! lengths are in meters and independent of the renderer, so all renderers draw the same picture.
 //!
 //! Texts are placed on a plane in front of the camera (`screen.rs`); their heights are relative to the image. Where a text beside a body or arrow
-//! stands is chosen for the whole run, so that it does not jump from frame to frame (`surroundings.rs`). Springs and joints are planned
+//! stands is chosen for the whole run, so that it does not jump from frame to frame (`surroundings.rs`, `favored_places.rs`). Springs and joints are planned
 //! as parts (`links/`). Each part has a shape, and follows the ends of the spring or joint in the frame. A slack rope is a catenary of its
 //! length (`catenary.rs`), and the rope of a pulley goes around its wheels (`pulley.rs`). Unused features yield empty lists. The widths of
 //! lines, and the lengths of arrows without a scale, follow from the width of the camera's view: at each frame if the camera moves,
@@ -24,6 +24,7 @@ mod camera;
 mod catenary;
 mod color_maps;
 mod colors;
+mod favored_places;
 mod followed;
 mod framing;
 mod ghosts;

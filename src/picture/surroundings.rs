@@ -1,13 +1,8 @@
 //! Chooses the place of a text near a point or a body.
 //!
 //! A text belongs to what it names, so it stays near it. It never covers another text if it can evade it, and it evades lines and bodies only as
-//! far as that keeps it near. So a field full of lines does not send a name across the picture.
-//!
-//! If each frame chose the best place for itself, texts would jump in a film. So each text has favored places: those with the lowest costs over a
-//! sample of frames, where each change of place costs something, too. Between two such places, it glides. It leaves them only where it would
-//! cover another text, or much else.
-
-use std::collections::HashMap;
+//! far as that keeps it near. So a field full of lines does not send a name across the picture. It leaves its favored places
+//! (`favored_places.rs`) only where it would cover another text, or much else.
 
 use super::occupancy::{Occupancy, Rectangle};
 use super::text::{Text, Vertical};
@@ -21,12 +16,6 @@ const COST_OF_BODY: f64 = 1.1;
 /// The cost of leaving the favored place in a single frame, and the additional cost for each height of a line between the two places. A text
 /// that would cover only a line or only a body stays.
 const COSTS_OF_LEAVING: [f64; 2] = [1.5, 0.6];
-/// The cost of another favored place than in the frame before in the sample, and the additional cost for each height of a line between the
-/// two places.
-const COSTS_OF_CHANGE: [f64; 2] = [2.0, 0.5];
-/// How long a text glides before and after a change of its place, in frames of the sample.
-const FRAMES_OF_GLIDE: f64 = 2.0;
-
 /// A text that has several possible places.
 pub(super) struct Movable<'a> {
     pub(super) key: Key,
@@ -58,13 +47,13 @@ pub(super) struct Place {
 }
 
 impl<'a> Movable<'a> {
-    fn at(&self, place: &Place) -> Text<'a> {
+    pub(super) fn at(&self, place: &Place) -> Text<'a> {
         let Place { x, y, align, .. } = *place;
         Text { x, y, align, ..self.text.clone() }
     }
 
     /// Returns a function that gives the area of the text at a place. The width of the text is computed once.
-    fn area(&self, aspect: f64) -> impl Fn(&Place) -> Rectangle + use<> {
+    pub(super) fn area(&self, aspect: f64) -> impl Fn(&Place) -> Rectangle + use<> {
         let (area, y) = (self.text.area(aspect), self.text.y.above_middle(aspect));
         let wide = area.right - area.left;
         move |place| {
@@ -74,7 +63,7 @@ impl<'a> Movable<'a> {
     }
 
     /// The distance between two places of the text, given by its areas there, in heights of a line.
-    fn distance(&self, from: Rectangle, to: Rectangle) -> f64 {
+    pub(super) fn distance(&self, from: Rectangle, to: Rectangle) -> f64 {
         libm::hypot(to.left - from.left, to.bottom - from.bottom) / self.text.height
     }
 
@@ -114,7 +103,7 @@ pub(super) struct Surroundings {
 
 impl Surroundings {
     /// The cost of what a text would cover.
-    fn covered(&self, area: Rectangle) -> f64 {
+    pub(super) fn covered(&self, area: Rectangle) -> f64 {
         let covered =
             [(&self.texts, COST_OF_TEXT), (&self.lines, COST_OF_LINE), (&self.bodies, COST_OF_BODY)];
         covered.into_iter().filter(|(taken, _)| !taken.is_free(area)).map(|(_, cost)| cost).sum()
@@ -146,120 +135,8 @@ impl Surroundings {
     }
 }
 
-/// A frame of a sample: its time, s, what its texts evade, and the texts with their possible places.
-pub(super) type Sample<'a> = (f64, Surroundings, Vec<Movable<'a>>);
-
-/// The favored places of all texts of a run.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Favored {
-    /// The times of the frames in the sample, s, in order.
-    times: Vec<f64>,
-    /// For each text, the index of its favored place in each frame of the sample. `None` where the text is absent.
-    places: HashMap<Key, Vec<Option<usize>>>,
-}
-
-impl Favored {
-    /// Chooses the favored places of texts that a sample of frames shows. A text that comes later in a frame evades those before it.
-    pub(super) fn new(samples: Vec<Sample<'_>>) -> Favored {
-        let mut favored =
-            Favored { times: samples.iter().map(|(time, ..)| *time).collect(), ..Favored::default() };
-        let mut keys = Vec::new();
-        let mut samples: Vec<(Surroundings, HashMap<Key, Movable<'_>>)> = samples
-            .into_iter()
-            .map(|(_, around, movables)| {
-                keys.extend(movables.iter().map(|movable| movable.key.clone()));
-                (around, movables.into_iter().map(|movable| (movable.key.clone(), movable)).collect())
-            })
-            .collect();
-        for key in keys {
-            if favored.places.contains_key(&key) {
-                continue;
-            }
-            let places = cheapest(samples.iter().map(|(around, movables)| (around, movables.get(&key))));
-            for ((around, movables), place) in samples.iter_mut().zip(&places) {
-                if let (Some(movable), Some(place)) = (movables.get(&key), place) {
-                    around.texts.take_text(&movable.at(&movable.places[*place]));
-                }
-            }
-            favored.places.insert(key, places);
-        }
-        favored
-    }
-
-    /// The indices and weights of the favored places of a text at a time (s). Empty if the sample does not show it near this time.
-    #[allow(clippy::cast_precision_loss, reason = "there are few frames in a sample")]
-    pub(super) fn at(&self, key: &Key, time: f64) -> Vec<(usize, f64)> {
-        let Some(places) = self.places.get(key) else { return Vec::new() };
-        let next = self.times.partition_point(|sample| *sample <= time).clamp(1, self.times.len());
-        let here = match self.times.get(next) {
-            Some(end) => (next - 1) as f64 + (time - self.times[next - 1]) / (end - self.times[next - 1]),
-            None => (next - 1) as f64,
-        };
-        let weight = |number: usize| 1.0 - (number as f64 - here).abs() / FRAMES_OF_GLIDE;
-        let weighted = places.iter().enumerate().map(|(number, place)| Some(((*place)?, weight(number))));
-        weighted.flatten().filter(|(_, weight)| *weight > 0.0).collect()
-    }
-}
-
-/// The cheapest series of places of a text in a sample of frames, by dynamic programming (Viterbi algorithm). `None` where the text is absent.
-fn cheapest<'s, 't: 's>(
-    sample: impl Iterator<Item = (&'s Surroundings, Option<&'s Movable<'t>>)>,
-) -> Vec<Option<usize>> {
-    // The least cost of each place up to the present frame, and the place before that leads to it.
-    let mut costs: Vec<f64> = Vec::new();
-    let mut before: Vec<Option<Vec<usize>>> = Vec::new();
-    for (around, movable) in sample {
-        let Some(movable) = movable else {
-            before.push(None);
-            continue;
-        };
-        costs.resize(movable.places.len(), 0.0);
-        let areas: Vec<Rectangle> = movable.places.iter().map(movable.area(around.texts.aspect())).collect();
-        let change = |from: usize, to: usize| {
-            let [change, farther] = COSTS_OF_CHANGE;
-            change + farther * movable.distance(areas[from], areas[to])
-        };
-        let cheapest = least(&costs);
-        let mut next = Vec::with_capacity(costs.len());
-        let mut leading = Vec::with_capacity(costs.len());
-        for (to, place) in movable.places.iter().enumerate() {
-            let mut best = (costs[to], to);
-            for (from, cost) in costs.iter().enumerate() {
-                // Most places cannot lead to a lower cost, by any way.
-                if from != to && cost + COSTS_OF_CHANGE[0] < best.0 {
-                    let cost = cost + change(from, to);
-                    best = if cost < best.0 { (cost, from) } else { best };
-                }
-            }
-            next.push(best.0 - costs[cheapest] + place.cost + around.covered(areas[to]));
-            leading.push(best.1);
-        }
-        costs = next;
-        before.push(Some(leading));
-    }
-    let mut place = least(&costs);
-    let mut places: Vec<Option<usize>> = before
-        .into_iter()
-        .rev()
-        .map(|before| {
-            let here = place;
-            before.map(|before| {
-                place = before[here];
-                here
-            })
-        })
-        .collect();
-    places.reverse();
-    places
-}
-
-/// The index of the least cost; of equal ones, the first.
-fn least(costs: &[f64]) -> usize {
-    (0..costs.len()).min_by(|one, other| costs[*one].total_cmp(&costs[*other])).unwrap_or(0)
-}
-
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::font::Typeface;
     use crate::scene::Color;
@@ -279,19 +156,20 @@ mod tests {
     }
 
     /// A text with places at these distances to the right of the middle, with these costs.
-    fn movable(places: &[(f64, f64)]) -> Movable<'static> {
+    pub(in super::super) fn movable(places: &[(f64, f64)]) -> Movable<'static> {
         let place =
             |(x, cost): &(f64, f64)| Place { x: *x, y: Vertical::Middle(0.0), align: 0.5, cost: *cost };
         Movable { key: Key::Label(0), text: text(), places: places.iter().map(place).collect() }
     }
 
-    fn surroundings() -> Surroundings {
+    pub(in super::super) fn surroundings() -> Surroundings {
         let [texts, lines, bodies] = [(); 3].map(|()| Occupancy::new(0.5));
         Surroundings { texts, lines, bodies }
     }
 
-    const AT_ZERO: Rectangle = Rectangle { left: -0.1, right: 0.1, bottom: -0.1, top: 0.1 };
-    const NEAR: [(f64, f64); 2] = [(0.0, 0.0), (0.5, 1.0)];
+    pub(in super::super) const AT_ZERO: Rectangle =
+        Rectangle { left: -0.1, right: 0.1, bottom: -0.1, top: 0.1 };
+    pub(in super::super) const NEAR: [(f64, f64); 2] = [(0.0, 0.0), (0.5, 1.0)];
     const FAR: [(f64, f64); 2] = [(0.0, 0.0), (0.5, 4.0)];
 
     #[test]
@@ -334,49 +212,5 @@ mod tests {
         assert_eq!(around.settle(&movable(&near), &at_zero).unwrap().x, 0.25);
         let favored = surroundings().settle(&movable(&FAR), &[(0, 1.0), (1, 3.0)]).unwrap();
         assert_eq!(favored.x, 0.375, "between two favored places, it glides");
-    }
-
-    /// The places of a text in a run of 20 frames, where something is at its usual place in some of them.
-    fn in_run(is_taken: impl Fn(usize) -> bool) -> Favored {
-        let sample = |number: usize| {
-            let mut around = surroundings();
-            if is_taken(number) {
-                around.lines.take(AT_ZERO);
-            }
-            (number as f64, around, vec![movable(&NEAR)])
-        };
-        Favored::new((0..20).map(sample).collect())
-    }
-
-    #[test]
-    fn a_text_changes_its_place_only_where_this_is_better_for_long() {
-        let places = |favored: &Favored| favored.places[&Key::Label(0)].clone();
-        assert_eq!(places(&in_run(|number| number == 7)), [Some(0); 20]);
-        assert_eq!(
-            places(&in_run(|number| number % 3 != 0)),
-            [Some(0); 20],
-            "the other place costs about as much"
-        );
-        let mut around = in_run(|_| false);
-        around.places.insert(Key::Label(1), vec![None, Some(3), Some(3), Some(4)]);
-        around.times.truncate(4);
-        assert_eq!(around.at(&Key::Label(1), 0.0), [(3, 1.0 - 1.0 / FRAMES_OF_GLIDE)]);
-        assert_eq!(around.at(&Key::Label(1), 9.0).last(), Some(&(4, 1.0)), "after the last frame");
-        assert_eq!(around.at(&Key::Label(2), 0.0), []);
-    }
-
-    /// A text stays away as long as another text is at its usual place, and returns only then.
-    #[test]
-    fn a_change_has_the_least_cost_over_the_run() {
-        let sample = |number: usize| {
-            let mut around = surroundings();
-            if (5..9).contains(&number) {
-                around.texts.take(AT_ZERO);
-            }
-            (number as f64, around, vec![movable(&NEAR)])
-        };
-        let favored = Favored::new((0..40).map(sample).collect());
-        let expected: Vec<_> = (0..40).map(|number| Some(usize::from((5..9).contains(&number)))).collect();
-        assert_eq!(favored.places[&Key::Label(0)], expected);
     }
 }

@@ -4,9 +4,10 @@ use glam::DVec3;
 
 use super::Plan;
 use crate::picture::bar::Bar;
+use crate::picture::favored_places::Favored;
 use crate::picture::marks::{self, Sketch};
 use crate::picture::screen::Screen;
-use crate::picture::surroundings::{Favored, Key, Movable, Surroundings};
+use crate::picture::surroundings::{Key, Movable, Surroundings};
 use crate::picture::text::Text;
 use crate::simulate::{Frame, MomentState};
 

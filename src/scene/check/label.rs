@@ -6,7 +6,7 @@ use super::measures::{OwnBody, Reader, Things};
 use super::read::figure;
 use super::showing::wanted;
 use super::view::View;
-use super::{Context, asset};
+use super::{Context, fonts};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::font::{Typeface, Weight};
 use crate::lettering::{self, BadScript};
@@ -35,7 +35,7 @@ pub(super) fn read(
             LabelPlace::Corner(_) | LabelPlace::Center => None,
         };
         let text = view.get(&label::TEXT).zip(view.span(&label::TEXT));
-        let own_typeface = view.node(&label::FONT).and_then(|font| asset::typeface(font, context));
+        let own_typeface = view.node(&label::FONT).and_then(|font| fonts::typeface(font, context));
         let typeface = own_typeface.as_deref().unwrap_or(Typeface::usual());
         let text = text.map(|text| {
             let mut reader = Reader::new("label", text, root, own, things, context);

@@ -13,6 +13,7 @@ mod effect;
 mod emitter;
 mod end;
 mod field;
+mod fonts;
 mod force;
 mod geometry;
 mod joint;
@@ -123,7 +124,7 @@ struct Context<'a> {
     /// The SHA-256 digests of the other files that the scene reads.
     files: Vec<[u8; 32]>,
     /// The fonts of labels.
-    fonts: asset::Fonts,
+    fonts: fonts::Fonts,
     /// The pairs of bodies whose impacts are counted, as indices of bodies.
     pairs: Vec<[usize; 2]>,
     /// The further columns of trajectory files that formulas can name.
@@ -170,7 +171,7 @@ impl Context<'_> {
             operations: motion::MAX_OPERATIONS,
             validated: HashSet::new(),
             files: Vec::new(),
-            fonts: asset::Fonts::default(),
+            fonts: fonts::Fonts::default(),
             pairs: Vec::new(),
             file_columns: FileColumns::default(),
             approaches: Vec::new(),
