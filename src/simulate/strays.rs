@@ -70,25 +70,49 @@ impl Paths {
         let whole = paths.iter().map(|path| path.all).reduce(Bounds::union)?;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of a number")]
         let most = ((moving as f64 * MAX_STRAY_FRACTION) as usize).max(1);
-        (1..=most).map(|strays| WithoutStrays::new(&paths, strays)).find_map(|rest| {
-            let rest = rest?;
+        // The space of the last paths, by the index of the first of them: one pass, as the number of paths may be large.
+        let mut rests = vec![Space::default(); paths.len() + 1];
+        for (i, path) in paths.iter().enumerate().rev() {
+            rests[i] = rests[i + 1].with(path.is_fixed, path.all, path.seen);
+        }
+        let mut starts = Space::default();
+        (1..=most).find_map(|strays| {
+            let stray = paths.get(strays - 1)?;
+            starts = starts.with(stray.is_fixed, stray.start, stray.start);
+            let rest = starts.union(rests[strays]).whole()?;
             (rest.bounds.diagonal() <= MAX_SIZE_RATIO * whole.diagonal()).then_some(rest)
         })
     }
 }
 
-impl WithoutStrays {
-    /// Computes the space if the first `strays` paths belong to strays.
-    fn new(paths: &[Path], strays: usize) -> Option<WithoutStrays> {
-        let start = |path: &Path| Path { all: path.start, seen: path.start, ..*path };
-        let (away, others) = paths.split_at(strays);
-        let counted = || away.iter().map(start).chain(others.iter().copied());
-        let moving = counted().filter(|path| !path.is_fixed);
-        Some(WithoutStrays {
-            bounds: counted().map(|path| path.all).reduce(Bounds::union)?,
-            moving: moving.map(|path| path.all).reduce(Bounds::union)?,
-            seen: counted().map(|path| path.seen).reduce(Bounds::union)?,
-        })
+/// The space of some bodies: as [`WithoutStrays`], with `None` for boxes around no bodies.
+#[derive(Clone, Copy, Default)]
+struct Space {
+    bounds: Option<Bounds>,
+    moving: Option<Bounds>,
+    seen: Option<Bounds>,
+}
+
+impl Space {
+    /// Adds a body.
+    fn with(self, is_fixed: bool, bounds: Bounds, seen: Bounds) -> Space {
+        let moving = (!is_fixed).then_some(bounds);
+        self.union(Space { bounds: Some(bounds), moving, seen: Some(seen) })
+    }
+
+    fn union(self, other: Space) -> Space {
+        let union =
+            |one: Option<Bounds>, other: Option<Bounds>| one.into_iter().chain(other).reduce(Bounds::union);
+        Space {
+            bounds: union(self.bounds, other.bounds),
+            moving: union(self.moving, other.moving),
+            seen: union(self.seen, other.seen),
+        }
+    }
+
+    /// Returns the boxes, or `None` if one of them is around no body.
+    fn whole(self) -> Option<WithoutStrays> {
+        Some(WithoutStrays { bounds: self.bounds?, moving: self.moving?, seen: self.seen? })
     }
 }
 
