@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::super::integrator::drift_body;
 use super::super::{Model, State};
-use super::jacobian::{book, for_each_direction, move_members, push, rates};
+use super::jacobian::{book, move_members, push, rates};
 use super::solver::Solver;
 
 /// Velocities obey a constraint if its rate is at most this fraction of the largest rate: a few rounding errors.
@@ -144,26 +144,12 @@ impl Solver {
             }
             // If nearly redundant constraint rows contradict each other, the softness keeps bodies from moving far.
             self.factor.solve(&mut self.unknown);
-            if self.factor.is_soft() {
-                self.move_at_once(state);
-                continue;
-            }
-            let Solver { structure: Some(structure), members, jacobian, unknown, .. } = &*self else {
-                return;
-            };
-            for_each_direction(structure, jacobian, unknown, |member, direction, multiplier| {
-                let (i, member) = (structure.bodies[member], &members[member]);
-                state.location[i] += multiplier * member.inverse_mass * direction.linear;
-                let turn = member.turn(multiplier * direction.angular);
-                if turn != DVec3::ZERO {
-                    state.orientation[i] = (DQuat::from_scaled_axis(turn) * state.orientation[i]).normalize();
-                }
-            });
+            self.move_at_once(state);
         }
     }
 
-    /// Moves the bodies by the shifts M⁻¹ Jᵀ Λ, where `unknown` holds Λ. Where friction repeats what joints say, the shifts of single equations
-    /// are large and nearly cancel. Turns made one after another would leave a rotation of the second order, so their sum is made at once.
+    /// Moves the bodies by the shifts M⁻¹ Jᵀ Λ, where `unknown` holds Λ. The turns of all equations are added before a body turns: turns made
+    /// one after another would leave a rotation of the second order, which depends on the axes and the order of the equations.
     fn move_at_once(&mut self, state: &mut State) {
         let Solver { structure: Some(structure), members, jacobian, unknown, .. } = self else { return };
         // The velocities of the members serve as working memory. The next measurement restores them.
