@@ -338,7 +338,10 @@ fn a_motor_of_any_strength_keeps_its_speed() {
             assert!((first - 10.0).abs() < 1e-9, "{case}: {first}");
             // The second wheel turns at `ratio` times the speed of the first.
             assert!((second + 2.0 * first).abs() < 1e-8, "{case}: {second}");
-            assert!(stopped.abs() < 1e-9, "{case}: {stopped}");
+            // Motor and stop cancel to the rounding error of their impulse in a step; the wheel has 0.5 kg m². A motor of 1e30 N·m acts at
+            // once instead.
+            let rounding = if limit < 1e15 { f64::EPSILON * limit * 4e-3 } else { 0.0 };
+            assert!(stopped.abs() < 1e-9 + rounding / 0.5, "{case}: {stopped}");
         }
     }
 }
