@@ -5,7 +5,7 @@ use crate::cache;
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::emit::{EmitError, Emitter};
 use crate::picture::number::rounded;
-use crate::picture::{Largest, Part, Plan};
+use crate::picture::{FramedPart, Largest, Plan};
 use crate::scene::{Scene, Shutter, View};
 use crate::simulate::{Exposure, Frame, Frames, Recorded, SimulateError, Survey};
 use crate::{motion_warnings, not_drawn};
@@ -183,13 +183,13 @@ fn too_small(scene: &Scene, plan: &Plan, largest: &Largest) -> Diagnostic {
         )
     };
     let message = match plan.part() {
-        Part::Start(end) => in_whole(format!("frames only the first {} s", rounded(end))),
-        Part::Along => in_whole("goes along with the motion".to_owned()),
-        Part::Whole => {
+        FramedPart::Start(end) => in_whole(format!("frames only the first {} s", rounded(end))),
+        FramedPart::Along => in_whole("goes along with the motion".to_owned()),
+        FramedPart::Whole => {
             format!("{noun}, `{name}`, is {:.1} pixels wide in the picture", largest.pixels)
         }
     };
-    let is_followed = scene.camera.motion.follow.is_some() || plan.part() == Part::Along;
+    let is_followed = scene.camera.motion.follow.is_some() || plan.part() == FramedPart::Along;
     let follow = format!("`follow = {{ body = \"{name}\" }}` in [camera] goes along with it");
     let others = "`look.scale` draws it larger, `trail = true` shows its way; or shorten `simulation.duration`, or give \
                   a `[camera]`";

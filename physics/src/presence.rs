@@ -85,7 +85,7 @@ impl Presence {
 /// A change of a body's presence. At equal times, births are ordered before deaths, so a body whose interval is a single moment is present
 /// at this moment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Change {
+enum PresenceChange {
     Birth,
     Death,
 }
@@ -94,7 +94,7 @@ enum Change {
 #[derive(Clone, Copy, Debug)]
 struct Event {
     time: f64,
-    change: Change,
+    change: PresenceChange,
     body: usize,
 }
 
@@ -127,9 +127,9 @@ impl PresenceSchedule {
         self.events.drain(..std::mem::take(&mut self.over));
         self.is_sorted = false;
         for &[start, end] in presence.intervals() {
-            for (time, change) in [(start, Change::Birth), (end, Change::Death)] {
+            for (time, change) in [(start, PresenceChange::Birth), (end, PresenceChange::Death)] {
                 // A death at time `t` itself lies ahead: at `t`, the body is still present.
-                if time > t && time < f64::INFINITY || time == t && change == Change::Death {
+                if time > t && time < f64::INFINITY || time == t && change == PresenceChange::Death {
                     self.events.push(Event { time, change, body });
                 }
             }
@@ -155,7 +155,7 @@ impl PresenceSchedule {
     /// Returns the changes of presence that take effect when time `t` (s) is reached, and marks them as past. A body born at `t` is then
     /// present, and a body that dies at `t` is still present. Each change holds the index of the body and its new presence.
     pub(super) fn arrive(&mut self, t: f64) -> Vec<(usize, bool)> {
-        self.pass(|event| event.time < t || event.time == t && event.change == Change::Birth)
+        self.pass(|event| event.time < t || event.time == t && event.change == PresenceChange::Birth)
     }
 
     /// Returns the changes of presence that take effect when time continues from `t` (s), and marks them as past. A body that dies at `t`
@@ -170,7 +170,7 @@ impl PresenceSchedule {
         self.over += self.events[begin..].iter().take_while(|event| is_over(event)).count();
         self.events[begin..self.over]
             .iter()
-            .map(|event| (event.body, event.change == Change::Birth))
+            .map(|event| (event.body, event.change == PresenceChange::Birth))
             .collect()
     }
 

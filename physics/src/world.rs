@@ -2,10 +2,10 @@
 //!
 //! # Steps in pieces
 //!
-//! A step ends at each event (`world/piece.rs`). A piece also ends where the velocity of a body with a given motion jumps (`world/jump.rs`):
+//! A step ends at each event (`world/step_pieces.rs`). A piece also ends where the velocity of a body with a given motion jumps (`world/jump.rs`):
 //! a contact that holds would pull others along.
 //!
-//! Separate groups (`world/apart.rs`) are advanced one after another. First all bodies make the step without contacts. Then each group with
+//! Separate groups (`world/separate_groups.rs`) are advanced one after another. First all bodies make the step without contacts. Then each group with
 //! contacts makes the same step in its own pieces. An impact may throw a body so far that it could hit another group. The paths of all
 //! bodies show whether this happens; then the step is repeated with these groups as one. The results of contacts are kept for each group.
 //! For a requested moment within a step, a copy of the world computes all groups together.
@@ -25,15 +25,15 @@
 //! rest as with events, are obstacles for others then, and wake before something hits them.
 
 mod advance;
-mod apart;
 mod change;
 mod crowd;
 mod event;
 mod jump;
-mod picture;
-mod piece;
 mod policy;
 mod rest;
+mod separate_groups;
+mod snapshot;
+mod step_pieces;
 mod stepped;
 
 #[cfg(feature = "time-stepping")]
@@ -41,9 +41,9 @@ pub(super) use advance::steps_of;
 
 use glam::{DQuat, DVec3};
 
-use self::picture::{picture, push_crowd};
 pub use self::policy::ContactPolicy;
 use self::rest::Rest;
+use self::snapshot::{picture, push_crowd};
 use super::constraint::Solver;
 use super::contact::Collider;
 use super::presence::PresenceSchedule;

@@ -36,7 +36,7 @@ struct Inner {
     pages: Vec<Page>,
     in_memory: usize,
     /// The files that pages are written to. New pages go to the last file. If its disk is full, another file follows.
-    files: Vec<Part>,
+    files: Vec<PageFile>,
 }
 
 enum Page {
@@ -46,7 +46,7 @@ enum Page {
 }
 
 /// A file that the recorded pages of a run are written to.
-struct Part {
+struct PageFile {
     file: File,
     /// The path of the file. `None` for a nameless temporary file.
     path: Option<PathBuf>,
@@ -68,7 +68,7 @@ impl Spill {
     pub(super) fn resume(folder: PathBuf, key: CacheKey) -> Option<(Spill, Checkpoint)> {
         let Stopped { part: path, file, pages, checkpoint } = checkpoint::find(&folder, key)?;
         let end = pages.iter().map(|at| at.offset + at.bytes).max().unwrap_or(0);
-        let part = Part { file, path: Some(path), end: end.max(file::begin(key).len() as u64) };
+        let part = PageFile { file, path: Some(path), end: end.max(file::begin(key).len() as u64) };
         let pages = pages.into_iter().map(|at| Page::InFile(0, at)).collect();
         let inner = Mutex::new(Inner { pages, in_memory: 0, files: vec![part] });
         Some((Spill(Arc::new(Shared { to_keep: Some((folder, key)), inner })), checkpoint))
@@ -113,10 +113,10 @@ impl Spill {
 
     /// Opens the next file to write to: a file in the cache folder first, and then a nameless one. `files` is the number of files so far.
     /// `None` if no other file would help.
-    fn open_next(&self, files: usize) -> Option<io::Result<Part>> {
+    fn open_next(&self, files: usize) -> Option<io::Result<PageFile>> {
         match (&self.0.to_keep, files) {
-            (Some((folder, key)), 0) => Some(Part::named(folder, *key).or_else(|_| Part::unnamed())),
-            (None, 0) | (Some(_), 1) => Some(Part::unnamed()),
+            (Some((folder, key)), 0) => Some(PageFile::named(folder, *key).or_else(|_| PageFile::unnamed())),
+            (None, 0) | (Some(_), 1) => Some(PageFile::unnamed()),
             _ => None,
         }
     }
@@ -127,7 +127,7 @@ impl Inner {
     /// there is no such file, or the pages are in several files.
     fn settle(&mut self, folder: &Path, key: CacheKey) -> io::Result<Option<(PathBuf, Vec<At>)>> {
         if self.files.is_empty() {
-            self.files.push(Part::named(folder, key)?);
+            self.files.push(PageFile::named(folder, key)?);
         }
         let [part] = &mut self.files[..] else { return Ok(None) };
         let Some(path) = part.path.clone() else { return Ok(None) };
@@ -177,9 +177,9 @@ impl Store for Spill {
     }
 }
 
-impl Part {
+impl PageFile {
     /// Creates a file in the cache folder. The file is locked as long as it is open.
-    fn named(folder: &Path, key: CacheKey) -> io::Result<Part> {
+    fn named(folder: &Path, key: CacheKey) -> io::Result<PageFile> {
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         fs::create_dir_all(folder)?;
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
@@ -193,12 +193,12 @@ impl Part {
         file.set_len(0)?;
         let begin = file::begin(key);
         file.write_all_at(&begin, 0)?;
-        Ok(Part { file, path: Some(path), end: begin.len() as u64 })
+        Ok(PageFile { file, path: Some(path), end: begin.len() as u64 })
     }
 
     /// Creates a nameless temporary file.
-    fn unnamed() -> io::Result<Part> {
-        Ok(Part { file: tempfile::tempfile_in(temporary_folder())?, path: None, end: 0 })
+    fn unnamed() -> io::Result<PageFile> {
+        Ok(PageFile { file: tempfile::tempfile_in(temporary_folder())?, path: None, end: 0 })
     }
 
     fn has_room(&self, bytes: usize) -> io::Result<()> {
@@ -216,7 +216,7 @@ impl Part {
     }
 }
 
-impl Drop for Part {
+impl Drop for PageFile {
     fn drop(&mut self) {
         if let Some(path) = &self.path {
             // The pages were not kept, so their file and the checkpoint are removed.

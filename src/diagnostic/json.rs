@@ -15,8 +15,8 @@ pub struct Entry<'a> {
     message: &'a str,
     help: Option<&'a str>,
     #[serde(flatten)]
-    place: Option<Place<'a>>,
-    related: Vec<Place<'a>>,
+    place: Option<LabeledRange<'a>>,
+    related: Vec<LabeledRange<'a>>,
     /// The replacements that correct the error. Empty if no correction is known.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     fix: Vec<Replacement<'a>>,
@@ -30,7 +30,7 @@ impl Entry<'_> {
 }
 
 #[derive(Serialize)]
-struct Place<'a> {
+struct LabeledRange<'a> {
     #[serde(flatten)]
     range: Range<'a>,
     label: &'a str,
@@ -76,8 +76,8 @@ pub(super) fn entries<'a>(report: &'a Report) -> Vec<Entry<'a>> {
     report.diagnostics.iter().map(entry).collect()
 }
 
-fn place<'a>(label: &'a Label, sources: &'a Sources) -> Place<'a> {
-    Place { range: range(label.span, sources), label: &label.text }
+fn place<'a>(label: &'a Label, sources: &'a Sources) -> LabeledRange<'a> {
+    LabeledRange { range: range(label.span, sources), label: &label.text }
 }
 
 fn replacement<'a>(edit: &'a Edit, sources: &'a Sources) -> Replacement<'a> {

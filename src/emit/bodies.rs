@@ -81,14 +81,14 @@ struct Item {
 #[derive(PartialEq)]
 struct TextTemplate {
     before: String,
-    place: Place,
+    place: WrittenPose,
     /// The text between the pose and the name of the body.
     after: String,
 }
 
 /// How the pose of a body is written in SDL.
 #[derive(PartialEq)]
-enum Place {
+enum WrittenPose {
     /// The center of the body, as a vector.
     Centre,
     /// The center and the radius of a ball whose size follows a value. The number is its largest radius, m.
@@ -229,18 +229,18 @@ impl Block {
         Ok(())
     }
 
-    fn place(&self, out: &mut String, place: &Place, body: &BodySnapshot, scale: f64) {
+    fn place(&self, out: &mut String, place: &WrittenPose, body: &BodySnapshot, scale: f64) {
         match place {
-            Place::Centre => self.style.point(out, body.location),
-            Place::Ball(radius) => {
+            WrittenPose::Centre => self.style.point(out, body.location),
+            WrittenPose::Ball(radius) => {
                 self.style.point(out, body.location);
                 out.push_str(", ");
                 self.style.length(out, radius * scale);
             }
-            Place::Matrix(turn) => {
+            WrittenPose::Matrix(turn) => {
                 self.style.scaled_matrix(out, body.orientation * *turn, body.location, scale);
             }
-            Place::Plane(normal) => {
+            WrittenPose::Plane(normal) => {
                 let normal = body.orientation * *normal;
                 self.style.vector(out, normal);
                 out.push_str(", ");
@@ -294,7 +294,7 @@ fn single(
     let plane_macro = material.and_then(MaterialText::plane_macro);
     if let (&Shape::Plane { normal }, Some(plane)) = (&body.shape, plane_macro) {
         let before = format!("{plane}(transform {{ ");
-        let place = Place::Matrix(DQuat::from_rotation_arc(DVec3::Y, normal));
+        let place = WrittenPose::Matrix(DQuat::from_rotation_arc(DVec3::Y, normal));
         return group(TextTemplate { before, place, after: " }) // ".to_owned() });
     }
     // An object from the scene's POV-Ray code may look different after a rotation, so its orientation must be written.
@@ -307,11 +307,11 @@ fn single(
     after.push_str(&own(&body.look.sdl_after));
     // The transform comes after the pattern, so that the pattern moves with the body.
     match place {
-        Place::Matrix(_) => {
+        WrittenPose::Matrix(_) => {
             before.truncate(before.trim_end_matches(' ').len());
             let _ = write!(before, "{usage} ");
         }
-        Place::Centre | Place::Ball(_) | Place::Plane(_) => after.push_str(&usage),
+        WrittenPose::Centre | WrittenPose::Ball(_) | WrittenPose::Plane(_) => after.push_str(&usage),
     }
     after.push_str(" } // ");
     group(TextTemplate { before, place, after })
@@ -336,25 +336,27 @@ fn number(form: TextTemplate, forms: &mut Vec<TextTemplate>) -> usize {
 
 /// Returns the text before the pose of a body, how the pose is written, and the text after the pose. `uniform` is true if the material
 /// looks the same after any rotation.
-fn shape(body: &Body, uniform: bool, meshes: &Meshes, style: Style) -> (String, Place, String) {
+fn shape(body: &Body, uniform: bool, meshes: &Meshes, style: Style) -> (String, WrittenPose, String) {
     if let Some(object) = &body.look.object {
-        let place = Place::Matrix(DQuat::IDENTITY);
+        let place = WrittenPose::Matrix(DQuat::IDENTITY);
         return (shapes::open_sdl(object, body.look.scale, style), place, String::new());
     }
     match body.drawn() {
         Shape::Sphere { radius } if uniform && body.look.scale_map.is_some() => {
-            ("sphere { ".to_owned(), Place::Ball(radius), String::new())
+            ("sphere { ".to_owned(), WrittenPose::Ball(radius), String::new())
         }
         Shape::Sphere { radius } if uniform => {
             let mut after = ", ".to_owned();
             style.length(&mut after, radius);
-            ("sphere { ".to_owned(), Place::Centre, after)
+            ("sphere { ".to_owned(), WrittenPose::Centre, after)
         }
-        Shape::Plane { normal } if uniform => ("plane { ".to_owned(), Place::Plane(normal), String::new()),
+        Shape::Plane { normal } if uniform => {
+            ("plane { ".to_owned(), WrittenPose::Plane(normal), String::new())
+        }
         Shape::Plane { normal } => {
             let turn = DQuat::from_rotation_arc(DVec3::Y, normal);
-            ("plane { y, 0 ".to_owned(), Place::Matrix(turn), String::new())
+            ("plane { y, 0 ".to_owned(), WrittenPose::Matrix(turn), String::new())
         }
-        shape => (shapes::open(&shape, meshes, style), Place::Matrix(DQuat::IDENTITY), String::new()),
+        shape => (shapes::open(&shape, meshes, style), WrittenPose::Matrix(DQuat::IDENTITY), String::new()),
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::sight::Sight;
+use super::direction_hints::DirectionHints;
 use crate::decimal::decimal_step;
 use crate::scene::Output;
 use crate::simulate::Bounds;
@@ -28,17 +28,19 @@ const CLEAR: f64 = 1.5;
 /// motion: usually from the front, along x for motion in y and z, from above for motion in x and z. It also faces a
 /// coordinate plane with numbers. If the ground has numbers, the camera
 /// is somewhat higher. For a long lane or road with small bodies, it is low.
-pub(super) fn towards_camera(moving: Bounds, sight: Sight) -> DVec3 {
+pub(super) fn towards_camera(moving: Bounds, sight: DirectionHints) -> DVec3 {
     let extent = moving.max - moving.min;
     let from_the_side = sight.along_x.unwrap_or(extent.z > 2.0 * extent.x);
     let (across, depth) = if from_the_side { (extent.z, extent.x) } else { (extent.x, extent.z) };
     let is_flat = depth > 1.5 * extent.y && depth > (0.25 * across).min(4.0 * extent.y);
     let above = match (is_flat, sight) {
-        (true, Sight { reads_ground: false, on_ground: Some(width), .. }) if depth < LONG * across => {
+        (true, DirectionHints { reads_ground: false, on_ground: Some(width), .. })
+            if depth < LONG * across =>
+        {
             (CLEAR * width / depth).clamp(LOW_ABOVE, HIGH_ABOVE)
         }
         (true, _) => HIGH_ABOVE,
-        (false, Sight { reads_ground: true, .. }) => ABOVE_GRID,
+        (false, DirectionHints { reads_ground: true, .. }) => ABOVE_GRID,
         (false, _) => ABOVE,
     };
     if from_the_side { DVec3::new(-FRONT, above, ASIDE) } else { DVec3::new(ASIDE, above, FRONT) }
@@ -288,7 +290,8 @@ mod tests {
             Bounds { min: DVec3::new(0.0, 0.0, -40.0), max: DVec3::new(1.0, 1.0, 40.0) },
         ] {
             let field = Field::new(40.0, WIDE);
-            let framing = perspective(bounds, field, None, towards_camera(bounds, Sight::default()), UPRIGHT);
+            let framing =
+                perspective(bounds, field, None, towards_camera(bounds, DirectionHints::default()), UPRIGHT);
             let (right, up, back) = UPRIGHT.axes(framing.location - framing.look_at);
             let mut fullest: f64 = 0.0;
             for corner in corners(bounds) {
@@ -312,10 +315,16 @@ mod tests {
             Bounds { min: DVec3::new(-2.0, 0.0, -1.0), max: DVec3::new(62.0, 12.0, 1.0) },
         ] {
             let field = Field::new(40.0, WIDE).within(free);
-            let framing = perspective(bounds, field, None, towards_camera(bounds, Sight::default()), UPRIGHT);
+            let framing =
+                perspective(bounds, field, None, towards_camera(bounds, DirectionHints::default()), UPRIGHT);
             let (right, up, back) = UPRIGHT.axes(framing.location - framing.look_at);
-            let (flat, width) =
-                orthographic(bounds, WIDE, None, (towards_camera(bounds, Sight::default()), UPRIGHT), free);
+            let (flat, width) = orthographic(
+                bounds,
+                WIDE,
+                None,
+                (towards_camera(bounds, DirectionHints::default()), UPRIGHT),
+                free,
+            );
             let mut fullest = [0.0_f64; 2];
             for corner in corners(bounds) {
                 let offset = corner - framing.location;
@@ -337,7 +346,7 @@ mod tests {
     fn without_perspective_all_corners_are_in_the_picture_too() {
         let bounds = Bounds { min: DVec3::new(-2.0, 0.0, -1.0), max: DVec3::new(62.0, 52.0, 1.0) };
         for towards in
-            [towards_camera(bounds, Sight::default()), DVec3::Y, DVec3::Z, DVec3::new(1.0, 1.0, 1.0)]
+            [towards_camera(bounds, DirectionHints::default()), DVec3::Y, DVec3::Z, DVec3::new(1.0, 1.0, 1.0)]
         {
             let (framing, width) = orthographic(bounds, WIDE, None, (towards, UPRIGHT), Free::ALL);
             let (right, up, _) = UPRIGHT.axes(towards);
@@ -355,7 +364,7 @@ mod tests {
     fn the_camera_looks_onto_the_plane_in_which_most_happens() {
         let towards = |size: [f64; 3]| {
             let half = DVec3::from_array(size) / 2.0;
-            towards_camera(Bounds { min: -half, max: half }, Sight::default()).to_array()
+            towards_camera(Bounds { min: -half, max: half }, DirectionHints::default()).to_array()
         };
         let front = [ASIDE, ABOVE, FRONT];
         for size in [[9.0, 5.0, 1.0], [1.0, 1.0, 1.0], [5.0, 3.0, 3.0], [100.0, 0.8, 1.2], [0.2, 100.0, 0.2]]
@@ -363,7 +372,7 @@ mod tests {
             assert_eq!(towards(size), front, "{size:?}");
         }
         let cube = Bounds { min: DVec3::ZERO, max: DVec3::ONE };
-        let numbers = Sight { reads_ground: true, ..Sight::default() };
+        let numbers = DirectionHints { reads_ground: true, ..DirectionHints::default() };
         assert_eq!(towards_camera(cube, numbers).to_array(), [ASIDE, ABOVE_GRID, FRONT]);
         assert_eq!(towards([4.0, 0.2, 4.0]), [ASIDE, HIGH_ABOVE, FRONT]);
         assert_eq!(towards([10.0, 0.2, 1.5]), [ASIDE, HIGH_ABOVE, FRONT]);
@@ -376,7 +385,7 @@ mod tests {
     fn the_camera_is_low_above_a_lane_with_small_bodies() {
         let above = |size: [f64; 3], width: f64| {
             let half = DVec3::from_array(size) / 2.0;
-            let sight = Sight { on_ground: Some(width), ..Sight::default() };
+            let sight = DirectionHints { on_ground: Some(width), ..DirectionHints::default() };
             towards_camera(Bounds { min: -half, max: half }, sight).y
         };
         assert_eq!(above([10.0, 0.4, 3.0], 0.1), LOW_ABOVE);

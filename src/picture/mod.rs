@@ -12,7 +12,7 @@
 //! otherwise once for the run.
 //!
 //! The camera shows the whole motion. Where the bodies would be too small, it goes along with them (`track.rs`), or shows the motion up to the
-//! last of several times at which they are still large enough (`scope.rs`). The default lights are defined here, and again in
+//! last of several times at which they are still large enough (`framed_run.rs`). The default lights are defined here, and again in
 //! `templates/lights.inc`, which a scene may replace. A test in `emit/stage.rs` checks that the two are equal.
 //!
 //! Numbers in scripts and texts are written by `number.rs`: as short as possible, and never as `-0`.
@@ -24,8 +24,10 @@ mod camera;
 mod catenary;
 mod color_maps;
 mod colors;
+mod direction_hints;
 mod favored_places;
 mod followed;
+mod framed_run;
 mod framing;
 mod ghosts;
 mod grid;
@@ -43,9 +45,7 @@ mod pace;
 mod plan;
 mod plots;
 mod pulley;
-mod scope;
 mod screen;
-mod sight;
 mod stage;
 mod surroundings;
 #[cfg(test)]
@@ -58,6 +58,7 @@ mod trails;
 pub use bar::Bar;
 pub use camera::{Lens, Placed};
 pub use colors::pale;
+pub use framed_run::FramedPart;
 pub(crate) use framing::rounded_outward;
 pub use lights::{Lamp, PlacedLight};
 pub use looks::Looks;
@@ -67,7 +68,6 @@ pub use plan::{Largest, Plan, Written};
 pub(crate) use plan::{Lost, has_texts};
 pub(crate) use plots::plot_alone;
 pub use plots::{CurveNow, PlannedCurve, PlannedPlot, PlotBar, PlotLine, PlotNow, Strip, UnseenPlot};
-pub use scope::Part;
 pub use screen::{Screen, ScreenPoint};
 pub use stage::{Scenery, Stage, StageGround};
 pub use text::{LINE, Text, Vertical};

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::camera::Placed;
+use super::framed_run::{FramedPart, FramedRun};
 use super::framing;
-use super::scope::{Part, Scope};
 use crate::decimal::decimal_step;
 use crate::scene::{Color, Environment, GridPlane, Output, Preset, Scene, Sky};
 use crate::simulate::Bounds;
@@ -70,16 +70,16 @@ pub struct Scenery {
 
 impl Scenery {
     /// Computes the sizes for a camera that frames a part of a run, and sees a width of `view` (m).
-    pub(super) fn new(scene: &Scene, scope: &Scope, view: f64) -> Scenery {
-        let (framed, whole) = (scope.span.bounds, scope.whole);
+    pub(super) fn new(scene: &Scene, framed_run: &FramedRun, view: f64) -> Scenery {
+        let (framed, whole) = (framed_run.span.bounds, framed_run.whole);
         let around = scene.environment.ground.as_ref();
         let framed_size = size(framed);
         let ground =
             around.and_then(|ground| ground.height).unwrap_or_else(|| just_under(whole.min.y, framed_size));
         let deep = || two_digits_up((framed.max.y - ground).max(framed_size));
         // A camera that goes along with the motion may be high above the ground.
-        let along = scope.track.as_ref().map(|track| two_digits_up((track.height() - ground).max(view)));
-        let depth = along.unwrap_or_else(|| if scope.part == Part::Whole { 0.0 } else { deep() });
+        let along = framed_run.track.as_ref().map(|track| two_digits_up((track.height() - ground).max(view)));
+        let depth = along.unwrap_or_else(|| if framed_run.part == FramedPart::Whole { 0.0 } else { deep() });
         // A camera close to a long motion sees only a part of it, so the tiles must fit the picture.
         let fit = framed_size.min(two_digits_up(view));
         let usual_tile = tile(fit.max(depth));

@@ -22,7 +22,7 @@ pub(super) struct Movable<'a> {
     /// The text, at any place.
     pub(super) text: Text<'a>,
     /// The places, in the same order in all frames. Of places with equal costs, the first one counts.
-    pub(super) places: Vec<Place>,
+    pub(super) places: Vec<TextPlace>,
 }
 
 /// Identifies a text in all frames of a run.
@@ -38,7 +38,7 @@ pub(super) enum Key {
 
 /// A possible place of a text.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct TextPlace {
     pub(super) x: f64,
     pub(super) y: Vertical,
     pub(super) align: f64,
@@ -47,13 +47,13 @@ pub(super) struct Place {
 }
 
 impl<'a> Movable<'a> {
-    pub(super) fn at(&self, place: &Place) -> Text<'a> {
-        let Place { x, y, align, .. } = *place;
+    pub(super) fn at(&self, place: &TextPlace) -> Text<'a> {
+        let TextPlace { x, y, align, .. } = *place;
         Text { x, y, align, ..self.text.clone() }
     }
 
     /// Returns a function that gives the area of the text at a place. The width of the text is computed once.
-    pub(super) fn area(&self, aspect: f64) -> impl Fn(&Place) -> Rectangle + use<> {
+    pub(super) fn area(&self, aspect: f64) -> impl Fn(&TextPlace) -> Rectangle + use<> {
         let (area, y) = (self.text.area(aspect), self.text.y.above_middle(aspect));
         let wide = area.right - area.left;
         move |place| {
@@ -68,13 +68,13 @@ impl<'a> Movable<'a> {
     }
 
     /// The mean of places with these indices and weights. `None` without places.
-    fn mean(&self, weighted: &[(usize, f64)], aspect: f64) -> Option<Place> {
+    fn mean(&self, weighted: &[(usize, f64)], aspect: f64) -> Option<TextPlace> {
         let (first, _) = *weighted.first()?;
         if weighted.iter().all(|(place, _)| *place == first) {
-            return self.places.get(first).map(|place| Place { cost: 0.0, ..*place });
+            return self.places.get(first).map(|place| TextPlace { cost: 0.0, ..*place });
         }
         let (mut mean, mut y, mut total) =
-            (Place { x: 0.0, y: Vertical::Middle(0.0), align: 0.0, cost: 0.0 }, 0.0, 0.0);
+            (TextPlace { x: 0.0, y: Vertical::Middle(0.0), align: 0.0, cost: 0.0 }, 0.0, 0.0);
         for (place, weight) in weighted {
             let place = self.places.get(*place)?;
             mean.x += weight * place.x;
@@ -82,7 +82,7 @@ impl<'a> Movable<'a> {
             y += weight * place.y.above_middle(aspect);
             total += weight;
         }
-        Some(Place {
+        Some(TextPlace {
             x: mean.x / total,
             y: Vertical::Middle(y / total),
             align: mean.align / total,
@@ -115,15 +115,15 @@ impl Surroundings {
         let aspect = self.texts.aspect();
         let area = movable.area(aspect);
         let favored = movable.mean(favored, aspect);
-        let with_leaving = |place: &Place| {
+        let with_leaving = |place: &TextPlace| {
             let [leaving, farther] = COSTS_OF_LEAVING;
-            let distance = |favored: Place| movable.distance(area(&favored), area(place));
+            let distance = |favored: TextPlace| movable.distance(area(&favored), area(place));
             place.cost + favored.map_or(0.0, |favored| leaving + farther * distance(favored))
         };
-        let places = movable.places.iter().map(|place| Place { cost: with_leaving(place), ..*place });
-        let mut best: Option<Place> = None;
+        let places = movable.places.iter().map(|place| TextPlace { cost: with_leaving(place), ..*place });
+        let mut best: Option<TextPlace> = None;
         for mut place in favored.into_iter().chain(places) {
-            let is_better = |place: &Place| best.is_none_or(|best| place.cost < best.cost);
+            let is_better = |place: &TextPlace| best.is_none_or(|best| place.cost < best.cost);
             if is_better(&place) {
                 place.cost += self.covered(area(&place));
                 best = if is_better(&place) { Some(place) } else { best };
@@ -158,7 +158,7 @@ pub(super) mod tests {
     /// A text with places at these distances to the right of the middle, with these costs.
     pub(in super::super) fn movable(places: &[(f64, f64)]) -> Movable<'static> {
         let place =
-            |(x, cost): &(f64, f64)| Place { x: *x, y: Vertical::Middle(0.0), align: 0.5, cost: *cost };
+            |(x, cost): &(f64, f64)| TextPlace { x: *x, y: Vertical::Middle(0.0), align: 0.5, cost: *cost };
         Movable { key: Key::Label(0), text: text(), places: places.iter().map(place).collect() }
     }
 

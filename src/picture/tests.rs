@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Form, Part, Plan, Text, Thing};
+use super::{Form, FramedPart, Plan, Text, Thing};
 use crate::scene::{ArrowOwner, Options, Override, Scene};
 use crate::simulate::{Frame, Frames, survey};
 
@@ -74,7 +74,7 @@ fn fall(keys: &str) -> (Scene, Plan) {
 #[test]
 fn where_all_of_a_fall_would_leave_a_dot_the_camera_frames_its_start() {
     let (_, start) = fall("[camera]\norbit.period = 9");
-    let Part::Start(end) = start.part() else { panic!("{:?}", start.part()) };
+    let FramedPart::Start(end) = start.part() else { panic!("{:?}", start.part()) };
     assert!((0.5..2.0).contains(&end), "{end}");
     assert!(start.too_small().is_some_and(|largest| largest.name == "ball" && largest.pixels_in_whole < 1.0));
     assert!(start.too_small().unwrap().pixels > 8.0);
@@ -87,10 +87,10 @@ fn where_all_of_a_fall_would_leave_a_dot_the_camera_frames_its_start() {
         "[camera]\nlocation = [0, 0, 900]",
         "[camera]\nfollow.body = 'ball'",
     ] {
-        assert_eq!(fall(keys).1.part(), Part::Whole, "{keys}");
+        assert_eq!(fall(keys).1.part(), FramedPart::Whole, "{keys}");
     }
     for keys in ["[environment]\npreset = 'space'", "[output]\ntransparent = true"] {
-        assert!(matches!(fall(keys).1.part(), Part::Start(_)), "{keys}");
+        assert!(matches!(fall(keys).1.part(), FramedPart::Start(_)), "{keys}");
     }
 }
 
@@ -105,7 +105,7 @@ fn the_camera_goes_along_where_all_of_a_motion_would_leave_dots() {
         "[camera]\nauto = 'track'",
     ] {
         let (scene, along) = fall(keys);
-        assert_eq!(along.part(), Part::Along, "{keys}");
+        assert_eq!(along.part(), FramedPart::Along, "{keys}");
         let mut before = None;
         for frame in frames(&scene) {
             let camera = along.camera(&frame);
@@ -135,15 +135,15 @@ fn the_camera_goes_along_where_all_of_a_motion_would_leave_dots() {
     });
     let (_, between) =
         plan(&format!("[body.ball]\nshape.sphere.radius = 0.1\nvelocity = [2, 0, 0]\n{}", posts.concat()));
-    assert_ne!(between.part(), Part::Along);
+    assert_ne!(between.part(), FramedPart::Along);
     // The path of a throw fills the picture, and ghosts show where the ball was.
     let part = |keys: &str| {
         let simulation = "simulation = { duration = 4.5, gravity = [0, -9.81, 0] }";
         let ball = "[body.ball]\nshape.sphere.radius = 0.5\nlocation = [0, 100, 0]";
         plan(&format!("{simulation}\n{ball}\n{keys}")).1.part()
     };
-    assert_eq!(part(""), Part::Along);
-    assert_eq!(part("ghosts.every = 0.5"), Part::Whole);
+    assert_eq!(part(""), FramedPart::Along);
+    assert_eq!(part("ghosts.every = 0.5"), FramedPart::Whole);
 }
 
 /// A body in straight motion stays in the middle of the picture, at the same size, from the first frame to the last. This does not depend on
@@ -156,7 +156,7 @@ fn a_camera_along_a_straight_motion_keeps_the_body_in_the_middle() {
         let (scene, plan) = plan(&format!(
             "simulation.frame_rate = {rate}\n[body.car]\nshape.sphere.radius = {radius:e}\nlocation = [{aside:e}, {aside:e}, 0]\nvelocity = [{speed:e}, {aside:e}, 0]"
         ));
-        assert_eq!(plan.part(), Part::Along);
+        assert_eq!(plan.part(), FramedPart::Along);
         let mut views = Vec::new();
         for frame in frames(&scene) {
             let camera = plan.camera(&frame);
@@ -181,7 +181,7 @@ fn a_fixed_body_that_is_much_larger_than_the_motion_is_shown_in_part() {
         let camera = plan.camera(&frame);
         let ball = camera.screen().project(DVec3::new(0.0, 3.0, 0.0)).unwrap();
         let left = camera.screen().project(DVec3::new(-floor[0] / 2.0, 0.0, 0.0)).unwrap();
-        assert_eq!(plan.part(), Part::Whole);
+        assert_eq!(plan.part(), FramedPart::Whole);
         (0.25 * ball.scale, left.x)
     };
     let (ball, left) = drawn([20.0, 0.5, 20.0]);

@@ -105,13 +105,13 @@ struct Remembered {
 struct Made {
     stride: usize,
     number: usize,
-    part: Part,
+    part: TrailPart,
 }
 
 /// The points of a part of a trail. `reach` is the largest absolute value of their coordinates, m, or infinite if a coordinate is not
 /// finite.
 #[derive(Clone, Debug)]
-struct Part {
+struct TrailPart {
     points: Arc<[Spot]>,
     reach: f64,
 }
@@ -119,17 +119,17 @@ struct Part {
 /// A point of a trail (m), and its color as an index into the colors of the map; 0 for a trail of one color.
 type Spot = (DVec3, u16);
 
-impl Part {
-    fn of(points: Vec<Spot>) -> Part {
+impl TrailPart {
+    fn of(points: Vec<Spot>) -> TrailPart {
         let far =
             |(point, _): &Spot| if point.is_finite() { point.abs().max_element() } else { f64::INFINITY };
-        Part { reach: points.iter().map(far).fold(0.0, f64::max), points: points.into() }
+        TrailPart { reach: points.iter().map(far).fold(0.0, f64::max), points: points.into() }
     }
 }
 
 impl Remembered {
     /// Returns the stretch with a stride and a number from the cache. Calls `make` if the cache does not contain it.
-    fn part(&self, (stride, number): (usize, usize), make: impl FnOnce() -> Part) -> Part {
+    fn part(&self, (stride, number): (usize, usize), make: impl FnOnce() -> TrailPart) -> TrailPart {
         let made = || self.made.lock().unwrap_or_else(PoisonError::into_inner);
         let is_it = |made: &&Made| (made.stride, made.number) == (stride, number);
         if let Some(it) = made().iter().find(is_it) {
@@ -215,8 +215,8 @@ impl Line {
             let found = stretch_at(rest, path.stride);
             let number = found.map(|(number, _)| number);
             let end = found.map_or_else(|| until_stretch(rest, path.stride), |(_, end)| end);
-            let make = || Part::of(between(&rest[..=end], least, range));
-            let Part { points, reach } = match number {
+            let make = || TrailPart::of(between(&rest[..=end], least, range));
+            let TrailPart { points, reach } = match number {
                 Some(number) => remembered.part((path.stride, number), make),
                 None => make(),
             };

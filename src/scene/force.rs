@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::law::FormulaLaw;
+use super::force_formula::FormulaLaw;
 use super::{Color, SpringLook};
 use crate::physics::{
     Anchor, BodyId, Buoyancy, ConstantForce, Coulomb, Dipoles, Drag, Gravitation, J2, LennardJones, Lorentz,

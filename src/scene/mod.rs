@@ -48,7 +48,7 @@
 //!
 //! Forces given by formulas are evaluated for 64 bodies at once (`expression/wide.rs`). Each instruction works on columns of numbers, so
 //! decoding it costs little, and the compiler makes vector instructions of the loop. The result for each body has the same bits as an
-//! evaluation for this body alone. `law.rs` gives such formulas to the dynamics as a `ForceLaw`; the check compares the force with the exact
+//! evaluation for this body alone. `force_formula.rs` gives such formulas to the dynamics as a `ForceLaw`; the check compares the force with the exact
 //! derivative of its potential.
 //!
 //! A number that may depend on time is a `Timed`: a constant, or a formula with its derivative (`expression/derive.rs`), which gives the
@@ -79,17 +79,16 @@ mod color_map;
 mod color_names;
 mod contact;
 mod default_looks;
-pub mod drawn;
 mod drawn_field;
 mod emitter;
 mod expand;
 pub mod expression;
 mod file_columns;
 mod force;
+pub mod force_formula;
 pub mod grammar;
 mod joint;
 mod label;
-pub mod law;
 mod library;
 mod look;
 mod mark;
@@ -101,6 +100,7 @@ mod places;
 mod plot;
 mod preset;
 mod read;
+pub mod sampled_number;
 pub mod sdl;
 mod showing;
 pub mod source;

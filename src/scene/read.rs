@@ -6,9 +6,9 @@ use glam::DVec3;
 
 use crate::diagnostic::{Code, Diagnostic, Span, nearest};
 use crate::scene::Color;
-use crate::scene::drawn::Drawn;
+use crate::scene::force_formula::OfBody;
 use crate::scene::grammar::{Bound, Kind};
-use crate::scene::law::OfBody;
+use crate::scene::sampled_number::SampledNumber;
 use crate::scene::source::{Node, Value};
 use crate::scene::timed::{Timed, TimedVector};
 
@@ -127,11 +127,11 @@ pub(super) fn timed(node: &Node, bound: Bound) -> Result<Timed, Diagnostic> {
 }
 
 /// Reads a number within a bound, or a formula with random numbers. Does not check the values of a formula.
-pub(super) fn drawn(node: &Node, bound: Bound) -> Result<Drawn, Diagnostic> {
+pub(super) fn drawn(node: &Node, bound: Bound) -> Result<SampledNumber, Diagnostic> {
     match &node.value {
-        Value::Drawn(formula) => Ok(Drawn::Formula(formula.clone())),
-        Value::Integer(_) | Value::Float(_) => number(node, bound).map(Drawn::Constant),
-        _ => Err(wrong_type(node, &Kind::Drawn(bound))),
+        Value::Sampled(formula) => Ok(SampledNumber::Formula(formula.clone())),
+        Value::Integer(_) | Value::Float(_) => number(node, bound).map(SampledNumber::Constant),
+        _ => Err(wrong_type(node, &Kind::Sampled(bound))),
     }
 }
 

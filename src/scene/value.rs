@@ -5,9 +5,9 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::read;
-use crate::scene::drawn;
+use crate::scene::force_formula;
 use crate::scene::grammar::{Declared, DefaultValue, Kind, ReadAs};
-use crate::scene::law;
+use crate::scene::sampled_number;
 use crate::scene::source::Node;
 use crate::scene::timed;
 
@@ -78,7 +78,7 @@ pub(in crate::scene) struct Varying;
 /// A list of three items, each a number or a formula of the time and of measures.
 pub(in crate::scene) struct VaryingPoint;
 /// A number, or a formula with random numbers that is evaluated for each particle.
-pub(in crate::scene) struct Drawn;
+pub(in crate::scene) struct Sampled;
 /// A number, or a formula of a body's quantities.
 pub(in crate::scene) struct OfBody;
 /// A list of three items, each a number or a formula of a body's quantities.
@@ -107,10 +107,10 @@ value!(Varying => read::UncheckedVarying<'a>, Varying, |node, Kind::Varying(boun
     |given| given.number().map(|number| read::UncheckedVarying::Timed(timed::Timed::Constant(number))));
 value!(VaryingPoint => [read::UncheckedVarying<'a>; 3], VaryingPoint,
     |node, Kind::VaryingNumbers(_, bound)| read::varying_point(node, *bound).ok(), |_given| None);
-value!(Drawn => drawn::Drawn, Drawn, |node, Kind::Drawn(bound)| read::drawn(node, *bound).ok(),
-    |given| given.number().map(drawn::Drawn::Constant));
-value!(OfBody => law::OfBody, OfBody, |node, Kind::OfBody(names)| read::of_body(node, names).ok(), |_given| None);
-value!(ListOfBody => [law::OfBody; 3], ListOfBody,
+value!(Sampled => sampled_number::SampledNumber, Sampled, |node, Kind::Sampled(bound)| read::drawn(node, *bound).ok(),
+    |given| given.number().map(sampled_number::SampledNumber::Constant));
+value!(OfBody => force_formula::OfBody, OfBody, |node, Kind::OfBody(names)| read::of_body(node, names).ok(), |_given| None);
+value!(ListOfBody => [force_formula::OfBody; 3], ListOfBody,
     |node, Kind::ListOfBody(_, names)| read::list_of_body(node, names).ok(), |_given| None);
 value!(Vec<i64> => Vec<i64>, Integers,
     |node, kind| read::list_of(node, kind, |item, of| match of {

@@ -9,7 +9,7 @@
 //! | the requested moments | `moments` |
 //! | the run while it is computed | `simulation` |
 //! | all moments of a run, readable in any order | `recording`, `record` |
-//! | the frames in order, with trails and ghosts | `frames`, `past`, `lag` |
+//! | the frames in order, with trails and ghosts | `frames`, `past`, `followed_points` |
 //! | the frames in order, without a recording | `snapshots` |
 //! | the particles of emitters | `particles`, `swarms` |
 //! | the moments while a shutter is open | `exposure` |
@@ -41,7 +41,7 @@
 //!
 //! A frame holds the present bodies, in the order of their ids. All code looks bodies up by id: `Frame::body` returns `None` while a body is
 //! absent. An absent body has no line in any script or table, and no arrows, coils or labels; its ghosts and its trail stay. A camera that
-//! follows it stays where it was (`lag.rs`), and in a model it has the size 0.
+//! follows it stays where it was (`followed_points.rs`), and in a model it has the size 0.
 //!
 //! A trail has a corner at each impact of its body (`past/corners.rs`): two points at the same time, with the velocities before and after
 //! the impact. The recorded impact does not contain the location of the body's center, which is computed from the neighboring frames.
@@ -71,15 +71,16 @@ mod diverged;
 mod energy_error;
 mod exposure;
 mod fields;
+mod followed_points;
 mod frame;
 mod frames;
 mod impacts;
 mod joint_angles;
-mod lag;
 mod loads;
 mod marks;
 mod measures;
 mod moments;
+mod outliers;
 mod overlap;
 mod particles;
 mod past;
@@ -93,7 +94,6 @@ mod selection;
 mod simulation;
 mod snapshots;
 mod span;
-mod strays;
 mod survey;
 mod swarms;
 mod tallies;
@@ -104,7 +104,7 @@ mod workload;
 
 use crate::diagnostic::{self, Sources};
 use crate::physics::{self, BodyId, Breakdown};
-use crate::scene::law::quantities_at;
+use crate::scene::force_formula::quantities_at;
 use crate::scene::{ForceKind, Scene, in_string};
 
 pub(crate) use build::forces;
@@ -115,10 +115,10 @@ pub(crate) use energy_error::EnergyError;
 pub use energy_error::EnergyScale;
 pub use exposure::Exposure;
 pub use fields::{FieldSampler, FieldSource};
+pub use followed_points::Lagging;
 pub use frame::Frame;
 pub use frames::{Frames, within};
 pub use impacts::ImpactCounts;
-pub use lag::Lagging;
 pub use loads::{Load, loads, loads_on};
 pub use marks::{AngleNow, DistanceNow};
 pub(crate) use marks::{direction, place};

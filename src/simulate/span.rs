@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::Reach;
 use super::course::{Course, Stretch};
-use super::strays::Paths;
+use super::outliers::Paths;
 use super::vectors::{anchors, axis, root, shown};
 use crate::physics::BodySnapshot;
 use crate::scene::{Body, Quantity, Scene};
@@ -145,13 +145,13 @@ impl Spans {
         self.now.as_ref().map(|now| now.span.bounds)
     }
 
-    /// Returns the span of the whole run without strays, the bodies that fly far away. `None` if there are no strays, or if the scene
+    /// Returns the span of the whole run without outliers, the bodies that fly far away. `None` if there are no outliers, or if the scene
     /// shows arrows, since arrows may reach far themselves.
-    pub(super) fn without_strays(&self, scene: &Scene) -> Option<Span> {
+    pub(super) fn without_outliers(&self, scene: &Scene) -> Option<Span> {
         if self.has_arrows {
             return None;
         }
-        let rest = self.paths.without_strays()?;
+        let rest = self.paths.without_outliers()?;
         let add = |bounds: Bounds| self.particles.map_or(bounds, |all| all.union(bounds));
         let seen = anchors(scene).map(Bounds::point).fold(rest.seen, Bounds::union);
         let (bounds, moving, seen) = (add(rest.bounds), add(rest.moving), add(seen));

@@ -50,7 +50,7 @@ impl SurfacePattern {
         let least = corners.iter().map(|corner| corner.at).reduce(DVec3::min)?;
         let largest = corners.iter().map(|corner| corner.at).reduce(DVec3::max)?;
         let (borders, colors) = self.borders(least, largest)?;
-        let mut parts: Vec<Part> = (0..colors).map(|_| Part::default()).collect();
+        let mut parts: Vec<ColoredTriangles> = (0..colors).map(|_| ColoredTriangles::default()).collect();
         for indices in triangles.indices.chunks_exact(3) {
             let mut pieces = vec![indices.iter().map(|&index| corners[index as usize]).collect::<Vec<_>>()];
             for border in &borders {
@@ -165,13 +165,13 @@ impl Corner {
 
 /// The triangles of one color.
 #[derive(Default)]
-struct Part {
+struct ColoredTriangles {
     triangles: Triangles,
     /// The vertex for each position and normal, as the bits of their components. The map is never iterated.
     known: HashMap<[u32; 6], u32>,
 }
 
-impl Part {
+impl ColoredTriangles {
     fn add(&mut self, piece: &[Corner]) {
         let numbers: Vec<u32> = piece.iter().map(|corner| self.vertex(corner)).collect();
         for pair in numbers[1..].windows(2) {

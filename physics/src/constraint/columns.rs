@@ -14,14 +14,14 @@ use super::{Direction, Law};
 /// under a unit impulse along its row.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Columns {
-    changes: Vec<Change>,
+    changes: Vec<UnitResponse>,
     rows: Vec<Range<usize>>,
     weights: Vec<f64>,
 }
 
 /// The velocity change of one body under a unit impulse along a constraint row.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Change {
+pub(super) struct UnitResponse {
     pub(super) member: usize,
     pub(super) velocity: DVec3,
     pub(super) angular_velocity: DVec3,
@@ -36,7 +36,7 @@ impl Columns {
 
     /// Appends the velocity changes of the next constraint row. `weight` is the change of the row's own rate c' under a unit impulse along
     /// this row.
-    pub(super) fn push(&mut self, changes: impl Iterator<Item = Change>, weight: f64) {
+    pub(super) fn push(&mut self, changes: impl Iterator<Item = UnitResponse>, weight: f64) {
         let start = self.changes.len();
         self.changes
             .extend(changes.filter(|it| it.velocity != DVec3::ZERO || it.angular_velocity != DVec3::ZERO));
@@ -45,7 +45,7 @@ impl Columns {
     }
 
     /// Returns the velocity changes of the bodies under a unit impulse along a constraint row.
-    pub(super) fn of(&self, row: usize) -> &[Change] {
+    pub(super) fn of(&self, row: usize) -> &[UnitResponse] {
         &self.changes[self.rows[row].clone()]
     }
 
@@ -143,11 +143,11 @@ impl Solver {
         let change = |member: usize| {
             let moved = &mut moved[member];
             let change =
-                Change { member, velocity: moved.velocity, angular_velocity: moved.angular_velocity };
+                UnitResponse { member, velocity: moved.velocity, angular_velocity: moved.angular_velocity };
             (moved.velocity, moved.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
             change
         };
-        let changes: Vec<Change> = members.into_iter().map(change).collect();
+        let changes: Vec<UnitResponse> = members.into_iter().map(change).collect();
         columns.push(changes.into_iter().filter(|_| !is_blocked), if is_blocked { 0.0 } else { weight });
     }
 
@@ -162,7 +162,7 @@ impl Solver {
         }
         let change = |direction: &Direction| {
             let Direction { linear, angular, .. } = self.members[direction.member].weigh(direction);
-            Change { member: direction.member, velocity: linear, angular_velocity: angular }
+            UnitResponse { member: direction.member, velocity: linear, angular_velocity: angular }
         };
         columns.push(directions.iter().map(change), weight);
     }

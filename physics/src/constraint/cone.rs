@@ -12,7 +12,7 @@ use super::super::{Loads, Model, State};
 use super::Law;
 use super::friction::FrictionPair;
 use super::jacobian::{move_members, product};
-use super::modes::Mode;
+use super::row_modes::Mode;
 use super::solver::Solver;
 use super::sweep::{Purpose, Stopping};
 

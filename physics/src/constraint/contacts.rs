@@ -10,7 +10,7 @@ use super::super::{BodyId, Breakdown, ContactSnapshot, Model, State};
 use super::Law;
 use super::friction::FrictionPair;
 use super::jacobian::{move_members, products};
-use super::modes::Mode;
+use super::row_modes::Mode;
 use super::solver::Solver;
 
 impl Solver {

@@ -5,7 +5,7 @@ use super::Law;
 use super::cone::LEAST_SLIP;
 use super::friction::FrictionPair;
 use super::jacobian;
-use super::modes::Mode;
+use super::row_modes::Mode;
 use super::solver::Solver;
 
 /// An inequality c ≥ 0 counts as violated if c falls below 0 by this fraction of its size. A constraint counts as moving if its rate c'

@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::super::Loads;
 use super::events::VIOLATION_TOLERANCE;
-use super::modes::{Mode, STOP_TOLERANCE};
+use super::row_modes::{Mode, STOP_TOLERANCE};
 use super::solver::Solver;
 use super::structure::Structure;
 use super::{Law, jacobian};

@@ -31,7 +31,7 @@
 //! is active and how it exerts force. It does not change within a step, so the right-hand side is smooth there.
 //!
 //! A step ends at each event that changes a mode: a rope becomes taut, a multiplier changes its sign, or a motor reaches its speed.
-//! `world/piece.rs` shortens the step until it ends just after the event, so each method keeps its order. Then `modes.rs` solves two linear
+//! `world/step_pieces.rs` shortens the step until it ends just after the event, so each method keeps its order. Then `row_modes.rs` solves two linear
 //! complementarity problems. The first gives the impulses of the inequalities that are hit. The second gives, from the accelerations, the
 //! equations that stay active. The account `limits` holds the energy that these impacts take, the account `motors` the work of motors.
 //!
@@ -55,7 +55,7 @@
 //! A snapshot holds the reaction of each constraint on its second end (`reaction.rs`): the sum of the forces Jᵀ λ of its equations, and of
 //! their torques about this end. For redundant equations λ is zero, so one hinge of a door may carry the whole load and the other none. The
 //! forces of an impact are not included. The contact forces of a heap are those of its last part; for a resting heap, sweeps find them
-//! (`shown.rs`).
+//! (`contact_forces.rs`).
 //!
 //! # A new kind
 //!
@@ -65,6 +65,7 @@ mod anderson;
 mod ball;
 mod columns;
 mod cone;
+mod contact_forces;
 mod contacts;
 mod coordinate;
 mod envelope;
@@ -78,7 +79,6 @@ mod hinge;
 mod jacobian;
 mod last_forces;
 mod member;
-mod modes;
 mod newton;
 mod parts;
 mod pile;
@@ -89,11 +89,11 @@ mod rebound;
 mod refine;
 mod rod;
 mod rope;
+mod row_modes;
 mod scale;
 mod separate;
 mod servo;
 mod settle;
-mod shown;
 mod slider;
 mod sliding;
 mod solver;

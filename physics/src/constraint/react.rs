@@ -2,7 +2,7 @@
 
 use super::super::{Loads, Model, State};
 use super::jacobian::{for_each_direction, magnitude, move_members, product, products};
-use super::modes::Mode;
+use super::row_modes::Mode;
 use super::solver::Solver;
 
 impl Solver {

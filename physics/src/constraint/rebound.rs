@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use super::super::{Impact, Loads, Model, State};
 use super::solver::Solver;
-use super::structure::Place;
+use super::structure::ConstraintBlock;
 use super::sweep::Purpose;
 use super::{Direction, Law};
 
@@ -137,7 +137,7 @@ impl Solver {
         part: f64,
     ) -> Vec<Rebound> {
         let change = |body: &usize| part * model.inverse_mass()[*body] * loads.force[*body].length();
-        let rebound = |place: &Place| {
+        let rebound = |place: &ConstraintBlock| {
             let contact = place.constraint.checked_sub(self.joints())?;
             let (restitution, bodies) =
                 (self.contacts[contact].law.restitution, self.contacts[contact].bodies);
@@ -165,7 +165,7 @@ impl Solver {
     /// Returns true if a stop (an inequality c ≥ 0) closes faster than its last force explains. What already pushed keeps its rate by forces:
     /// impulses would only take the energy of the small rates that a substep of turning bodies leaves.
     fn are_closing(&self, (rates, goals): (&[f64], &[f64]), part: f64) -> bool {
-        let closes = |row: usize, place: &Place| {
+        let closes = |row: usize, place: &ConstraintBlock| {
             if self.laws[row] != Law::Inequality || rates[row] >= goals[row] {
                 return false;
             }

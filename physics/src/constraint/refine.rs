@@ -7,7 +7,7 @@ use super::Law;
 use super::member::Member;
 use super::newton::{Bound, Inert, Island, Line, Term};
 use super::solver::Solver;
-use super::structure::{Place, Structure};
+use super::structure::{ConstraintBlock, Structure};
 use super::sweep::Purpose;
 
 /// The largest error of a rate that sweeps may leave, as a fraction of the largest rate before the impulses. Newton's method takes over if
@@ -93,16 +93,17 @@ impl Solver {
     }
 
     /// Groups the constraints by the moving bodies that couple them. Fixed bodies couple nothing.
-    fn coupled<'a>(&self, structure: &'a Structure) -> Vec<Vec<&'a Place>> {
+    fn coupled<'a>(&self, structure: &'a Structure) -> Vec<Vec<&'a ConstraintBlock>> {
         let mut sets = Sets::new(self.members.len());
-        let moving =
-            |place: &'a Place| place.bodies.iter().copied().filter(|&body| self.members[body].can_move());
+        let moving = |place: &'a ConstraintBlock| {
+            place.bodies.iter().copied().filter(|&body| self.members[body].can_move())
+        };
         for place in &structure.places {
             let mut bodies = moving(place);
             let Some(first) = bodies.next() else { continue };
             bodies.for_each(|body| sets.unite(first, body));
         }
-        let mut groups: Vec<Vec<&Place>> = vec![Vec::new(); self.members.len()];
+        let mut groups: Vec<Vec<&ConstraintBlock>> = vec![Vec::new(); self.members.len()];
         for place in &structure.places {
             if let Some(body) = moving(place).next() {
                 groups[sets.first(body)].push(place);
@@ -116,7 +117,7 @@ impl Solver {
     /// Returns it with the index of the member of each body.
     fn island(
         &self,
-        places: &[&Place],
+        places: &[&ConstraintBlock],
         (goals, purpose): (&[f64], Purpose),
         members: &[Member],
         unknown: &[f64],

@@ -2,7 +2,7 @@
 //! found together.
 
 use super::friction::FrictionPair;
-use super::modes::Mode;
+use super::row_modes::Mode;
 use super::solver::Solver;
 
 impl Solver {

@@ -14,9 +14,9 @@ use super::factor::Factor;
 use super::friction::FrictionPair;
 use super::last_forces::LastForces;
 use super::member::{BodyConstants, Member};
-use super::modes::Mode;
 use super::refine::Pause;
-use super::structure::{Place, Structure};
+use super::row_modes::Mode;
+use super::structure::{ConstraintBlock, Structure};
 use super::{Constraint, Direction, Equations, Law, Members, Row};
 
 /// A constraint is broken if its error after all corrections exceeds this fraction of its size.
@@ -241,10 +241,10 @@ impl Solver {
         (self.measured, self.factorised) = (f64::NAN, f64::NAN);
         self.motions = structure.bodies.iter().map(|&body| model.motion(body)).collect();
         self.rows = vec![Row::default(); structure.rows];
-        self.jacobian = structure.places.iter().flat_map(Place::directions).collect();
+        self.jacobian = structure.places.iter().flat_map(ConstraintBlock::directions).collect();
         let places = structure.places.iter();
         let all = &self.all;
-        let laws = |place: &Place| {
+        let laws = |place: &ConstraintBlock| {
             let constraint = all[place.constraint].clone();
             (0..place.rows).map(move |row| constraint.law(row))
         };

@@ -11,7 +11,7 @@ use super::{Constraint, Direction};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Structure {
     /// The active constraints, in the order of their elimination.
-    pub(super) places: Vec<Place>,
+    pub(super) places: Vec<ConstraintBlock>,
     /// The indices of the bodies of all constraints, each once, in ascending order.
     pub(super) bodies: Vec<usize>,
     /// The total number of rows of all constraints.
@@ -41,7 +41,7 @@ pub(super) struct Mechanism {
 
 /// The place of one constraint in the layout: its rows, directions and bodies.
 #[derive(Clone, Debug)]
-pub(super) struct Place {
+pub(super) struct ConstraintBlock {
     /// The index of the constraint in [`Solver::all`](super::solver::Solver::all): first the constraints of the model, then the contacts.
     pub(super) constraint: usize,
     /// The index of the constraint's first row.
@@ -54,7 +54,7 @@ pub(super) struct Place {
     pub(super) bodies: Vec<usize>,
 }
 
-impl Place {
+impl ConstraintBlock {
     /// Returns the directions of the constraint in the Jacobian, with their bodies. All entries are zero.
     pub(super) fn directions(&self) -> impl Iterator<Item = Direction> {
         let rows = std::iter::repeat_n(&self.bodies, self.rows);
@@ -79,7 +79,7 @@ impl Structure {
     }
 
     /// Returns the constraint to which a row belongs.
-    pub(super) fn place_of_row(&self, row: usize) -> Option<&Place> {
+    pub(super) fn place_of_row(&self, row: usize) -> Option<&ConstraintBlock> {
         let after = self.places.partition_point(|place| place.row <= row);
         self.places[..after].last().filter(|place| row < place.row + place.rows)
     }
@@ -128,7 +128,7 @@ impl Structure {
             for i in 0..rows {
                 structure.row_start.push(direction + i * bodies.len());
             }
-            structure.places.push(Place { constraint, row, rows, direction, bodies });
+            structure.places.push(ConstraintBlock { constraint, row, rows, direction, bodies });
         }
         structure.row_start.push(structure.directions);
         for (place, &i) in order.iter().enumerate() {

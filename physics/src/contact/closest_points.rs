@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::feature::Feature;
 use super::gjk;
 use super::patch::{Patch, meet, meet_placed};
-use super::solid::{Core, Part, Pose, Solid};
+use super::solid::{ConvexPart, Core, Pose, Solid};
 
 /// A feature is near a guessed point if their distance is below this fraction of the convex part's size. The guesses of GJK are better than
 /// this, except for overlapping round parts.
@@ -107,7 +107,7 @@ pub(super) fn for_pairs(
 }
 
 /// Returns a lower bound of the gap of two convex parts, m: the gap of their bounding balls.
-pub(super) fn apart(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> f64 {
+pub(super) fn apart(a: &ConvexPart, pa: &Pose, b: &ConvexPart, pb: &Pose) -> f64 {
     match (&a.core, &b.core) {
         (Core::Ground { .. }, Core::Ground { .. }) => f64::INFINITY,
         (Core::Ground { at, normal }, _) => above(pa, *at, *normal, pb.point(b.centre)) - b.bound,
@@ -121,7 +121,7 @@ fn above(pose: &Pose, at: DVec3, normal: DVec3, place: DVec3) -> f64 {
 }
 
 /// Computes the closest points of two convex parts.
-pub(super) fn between(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> ClosestPoints {
+pub(super) fn between(a: &ConvexPart, pa: &Pose, b: &ConvexPart, pb: &Pose) -> ClosestPoints {
     match (&a.core, &b.core) {
         (Core::Ground { at, normal }, _) => on_ground(pa, *at, *normal, b, pb),
         (_, Core::Ground { at, normal }) => on_ground(pb, *at, *normal, a, pa).flipped(),
@@ -135,7 +135,7 @@ pub(super) fn between(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> ClosestPoints
 }
 
 /// Computes the closest points of the ground, which comes first, and a convex part.
-fn on_ground(ground: &Pose, at: DVec3, normal: DVec3, part: &Part, pose: &Pose) -> ClosestPoints {
+fn on_ground(ground: &Pose, at: DVec3, normal: DVec3, part: &ConvexPart, pose: &Pose) -> ClosestPoints {
     let normal = ground.orientation * normal;
     // Coordinates are relative to the ground, to keep precision far from the origin.
     let shift = pose.location - ground.location;
@@ -147,12 +147,17 @@ fn on_ground(ground: &Pose, at: DVec3, normal: DVec3, part: &Part, pose: &Pose) 
 
 /// Returns the distance outside a feature at which a point still counts as on the feature, m. `round` is true if the other body is round
 /// there.
-pub(super) fn edge(part: &Part, round: bool) -> f64 {
+pub(super) fn edge(part: &ConvexPart, round: bool) -> f64 {
     part.bound * if round && part.surface.is_some() { SEAM_TOLERANCE } else { FEATURE_TOLERANCE }
 }
 
 /// Computes the closest points of a ball and a convex part, and the index of the part's feature at its closest point.
-pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (ClosestPoints, usize) {
+pub(super) fn ball_and(
+    ball: &ConvexPart,
+    pose: &Pose,
+    part: &ConvexPart,
+    at: &Pose,
+) -> (ClosestPoints, usize) {
     let patch = &ball.features[0].patch;
     // The ball is moved into the body axes of the convex part, so the features of the part need no rotation.
     let centre = at.local(pose.point(ball.centre));
@@ -214,7 +219,7 @@ fn feature_of_box(place: DVec3, half: DVec3, edge: f64) -> Option<usize> {
 /// The gap is the largest separation along any unit vector n (C. Ericson, *Real-Time Collision Detection* (2005), 5.2), and the right n is
 /// the normal of some pair of features. The largest separation along the normals of all pairs is therefore the gap, exact to rounding
 /// errors, with its sign. If GJK gives a guess, only the features near the guess are tried first.
-fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> ClosestPoints {
+fn convex(a: &ConvexPart, pa: &Pose, b: &ConvexPart, pb: &Pose) -> ClosestPoints {
     if let Some(found) = faces(a, pa, b, pb) {
         return found;
     }
@@ -241,7 +246,7 @@ fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> ClosestPoints {
 }
 
 /// Returns the patch of a feature. The edges of a triangle can be touched from all sides, since a triangle has no inside.
-fn side(part: &Part, feature: &Feature) -> Patch {
+fn side(part: &ConvexPart, feature: &Feature) -> Patch {
     match feature.patch {
         Patch::Line { at, along, half, radius, .. } if part.surface.is_some() => {
             Patch::Line { at, along, half, radius, outward: DVec3::ZERO }
@@ -251,7 +256,7 @@ fn side(part: &Part, feature: &Feature) -> Patch {
 }
 
 /// Computes the closest points of two boxes with parallel edges. `None` unless the boxes are nearest at two faces.
-fn faces(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<ClosestPoints> {
+fn faces(a: &ConvexPart, pa: &Pose, b: &ConvexPart, pb: &Pose) -> Option<ClosestPoints> {
     let (of_a, of_b) = (a.half?, b.half?);
     if pa.orientation != pb.orientation {
         return None;
@@ -275,9 +280,9 @@ fn faces(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<ClosestPoints> {
 
 /// The search for the normal along which two convex parts have the largest separation.
 struct Search<'a> {
-    a: &'a Part,
+    a: &'a ConvexPart,
     pa: &'a Pose,
-    b: &'a Part,
+    b: &'a ConvexPart,
     pb: &'a Pose,
     /// The largest separation so far, m, and the closest points whose normal gives it.
     best: Option<(f64, ClosestPoints)>,
@@ -296,13 +301,18 @@ struct Placed<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn new(a: &'a Part, pa: &'a Pose, b: &'a Part, pb: &'a Pose) -> Search<'a> {
+    fn new(a: &'a ConvexPart, pa: &'a Pose, b: &'a ConvexPart, pb: &'a Pose) -> Search<'a> {
         let digits = 1e-14 * (a.bound + b.bound + (pb.location - pa.location).length());
         Search { a, pa, b, pb, best: None, digits, last: [None; 2] }
     }
 
     /// Places the features of a part that `is_wanted` accepts.
-    fn placed(&self, part: &'a Part, pose: &Pose, is_wanted: impl Fn(&Feature) -> bool) -> Vec<Placed<'a>> {
+    fn placed(
+        &self,
+        part: &'a ConvexPart,
+        pose: &Pose,
+        is_wanted: impl Fn(&Feature) -> bool,
+    ) -> Vec<Placed<'a>> {
         let pose = Pose { location: pose.location - self.pa.location, orientation: pose.orientation };
         let wanted = part.features.iter().filter(|feature| is_wanted(feature));
         let place = |feature| Placed { feature, patch: side(part, feature).placed(&pose), separation: None };
@@ -388,7 +398,7 @@ impl<'a> Search<'a> {
     fn answer(&self) -> Option<ClosestPoints> {
         let (along, found) = self.best?;
         let parts = [(self.a, self.pa, found.on[0]), (self.b, self.pb, found.on[1])];
-        let is_on = |(part, pose, place): (&Part, &Pose, DVec3)| {
+        let is_on = |(part, pose, place): (&ConvexPart, &Pose, DVec3)| {
             let place = pose.local(place);
             part.features.iter().any(|feature| feature.holds(place, FEATURE_TOLERANCE * part.bound))
         };
@@ -408,7 +418,7 @@ impl<'a> Search<'a> {
     fn separation(&mut self, normal: DVec3) -> f64 {
         let [local_a, local_b] = self.local(normal);
         let (high_a, high_b) = (self.a.core.support(local_a), self.b.core.support(local_b));
-        let corner = |part: &Part, at: DVec3| matches!(part.core, Core::Hull(_)).then_some(at);
+        let corner = |part: &ConvexPart, at: DVec3| matches!(part.core, Core::Hull(_)).then_some(at);
         self.last = [corner(self.a, high_a), corner(self.b, high_b)];
         self.between_supports(normal, high_a.dot(local_a), high_b.dot(local_b))
     }

@@ -188,7 +188,7 @@ impl Collider {
         for pair in &mut pairs.list {
             let [a, b] = pair.bodies;
             let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { continue };
-            let scale = Scale::of(pair.bodies, [x, y], (model, before));
+            let scale = ContactScale::of(pair.bodies, [x, y], (model, before));
             let near_enough = scale.tolerance(CONTACT_TOLERANCE);
             if pair.free > near_enough {
                 continue;
@@ -225,7 +225,7 @@ impl Collider {
         let (Some(x), Some(y)) = (&self.solids[a], &self.solids[b]) else { return None };
         let poses = bodies.map(|i| pose(i, model, state));
         let near = nearest(x, &poses[0], y, &poses[1], f64::INFINITY)?;
-        let touch = Scale::of(bodies, [x, y], (model, state)).touch();
+        let touch = ContactScale::of(bodies, [x, y], (model, state)).touch();
         let gap = |place: &ClosestPoints| if place.gap.abs() > touch { place.gap } else { 0.0 };
         let turns = |&body: &usize| model.angular_velocity(body, state) != DVec3::ZERO;
         if are_convex([x, y]) && !bodies.iter().any(turns) {
@@ -249,7 +249,7 @@ impl Collider {
             let (Some(x), Some(y)) = (&self.solids[a], &self.solids[b]) else { continue };
             let [p, q] = [a, b].map(|i| pose(i, model, state));
             let tolerated =
-                Scale::of(contact.bodies, [x, y], (model, state)).tolerance(EVENT_OVERLAP_TOLERANCE);
+                ContactScale::of(contact.bodies, [x, y], (model, state)).tolerance(EVENT_OVERLAP_TOLERANCE);
             margin = margin.min(inside(&contact.touch, x, &p, y, &q) / tolerated);
             margin = margin.min(contact.left([p, q]) / EVENT_OVERLAP_TOLERANCE);
             if last == Some(contact.bodies) {
@@ -282,7 +282,7 @@ impl Collider {
             if crowd.holds(pair.bodies, |body| crowd.has(body), model) || is_passive(pair.bodies, model) {
                 continue;
             }
-            let scale = Scale::of(pair.bodies, [x, y], (model, state));
+            let scale = ContactScale::of(pair.bodies, [x, y], (model, state));
             let within = scale.tolerance(CONTACT_TOLERANCE);
             if pair.free > within {
                 continue;
@@ -322,7 +322,7 @@ impl Collider {
             }
             let poses = [a, b].map(|i| pose(i, model, state));
             let near = nearest(x, &poses[0], y, &poses[1], f64::INFINITY)?;
-            let tolerated = Scale::of(bodies, [x, y], (model, state)).tolerance(MAX_INITIAL_OVERLAP);
+            let tolerated = ContactScale::of(bodies, [x, y], (model, state)).tolerance(MAX_INITIAL_OVERLAP);
             let tolerated = tolerated.max(part * x.size().min(y.size()));
             (near.gap < -tolerated).then_some(-near.gap)
         };
@@ -370,22 +370,26 @@ fn rate(meeting: &ClosestPoints, bodies: [usize; 2], (model, state): (&Model, &S
 /// The lengths to which the tolerances of a contact are relative. They follow from the sizes of the bodies; the coordinates only widen a
 /// tolerance to the rounding errors that they cause.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Scale {
+pub(super) struct ContactScale {
     /// The size of the larger of the two bodies that forces can move, m. If forces move neither of them: the size of the smaller one.
     size: f64,
     /// The magnitude of the coordinates of the two bodies, m, to which rounding errors are proportional.
     coordinates: f64,
 }
 
-impl Scale {
-    pub(super) fn of(bodies: [usize; 2], solids: [&Solid; 2], (model, state): (&Model, &State)) -> Scale {
+impl ContactScale {
+    pub(super) fn of(
+        bodies: [usize; 2],
+        solids: [&Solid; 2],
+        (model, state): (&Model, &State),
+    ) -> ContactScale {
         let reach = |i: usize| solids[i].reach() + solids[i].size();
         let finite = |length: f64| if length.is_finite() { length } else { 0.0 };
         let own = |i: usize| if model.can_move(bodies[i]) { finite(reach(i)) } else { 0.0 };
         let coordinate = |i: usize| state.location[bodies[i]].abs().max_element() + finite(reach(i));
         let size = own(0).max(own(1));
         let size = if size > 0.0 { size } else { finite(reach(0).min(reach(1))) };
-        Scale { size, coordinates: coordinate(0).max(coordinate(1)) }
+        ContactScale { size, coordinates: coordinate(0).max(coordinate(1)) }
     }
 
     /// Returns the tolerance that is this fraction of the size of the bodies, m, but at least ten times the gap at which they touch.

@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::feature::Feature;
 use super::patch::{Patch, meet_placed};
-use super::solid::{Core, Part, Pose};
+use super::solid::{ConvexPart, Core, Pose};
 
 /// Two separations count as equal if they differ by less than this fraction of the sizes and the distance of the boxes. This is ten times
 /// what rounding errors may amount to.
@@ -70,7 +70,7 @@ impl<'a> Best<'a> {
 
 /// Returns how two boxes face each other. `None` if a closer search is needed: for other parts, for deep overlaps, if the boxes may be
 /// nearest at corners or parallel edges, and if several normals are equally good. `within` is the largest gap that matters, m.
-pub(super) fn facing(a: &Part, pa: &Pose, b: &Part, pb: &Pose, within: f64) -> Option<Facing> {
+pub(super) fn facing(a: &ConvexPart, pa: &Pose, b: &ConvexPart, pb: &Pose, within: f64) -> Option<Facing> {
     let (of_a, of_b) = (corners(a)?, corners(b)?);
     // All coordinates are in the body axes of the first box.
     let (turn, shift) = (pa.orientation.conjugate() * pb.orientation, pa.local(pb.location));
@@ -144,7 +144,7 @@ pub(super) fn facing(a: &Part, pa: &Pose, b: &Part, pb: &Pose, within: f64) -> O
 }
 
 /// Returns true if a corner of another box lies on an edge of a box that is highest along `normal`, to within `blurred`, m.
-fn is_on_edge(corners: &[DVec3; BOX_CORNERS], part: &Part, normal: DVec3, blurred: f64) -> bool {
+fn is_on_edge(corners: &[DVec3; BOX_CORNERS], part: &ConvexPart, normal: DVec3, blurred: f64) -> bool {
     let high = part.core.support(normal).dot(normal);
     corners.iter().filter(|corner| corner.dot(normal) <= high + blurred).any(|corner| {
         edges(part).any(|edge| match edge.patch {
@@ -159,7 +159,7 @@ fn is_on_edge(corners: &[DVec3; BOX_CORNERS], part: &Part, normal: DVec3, blurre
 }
 
 /// Returns the corners of a box without its rounding. `None` for all other parts.
-fn corners(part: &Part) -> Option<&[DVec3; BOX_CORNERS]> {
+fn corners(part: &ConvexPart) -> Option<&[DVec3; BOX_CORNERS]> {
     match &part.core {
         Core::Hull(corners) if part.surface.is_none() => corners.as_slice().try_into().ok(),
         _ => None,
@@ -167,12 +167,12 @@ fn corners(part: &Part) -> Option<&[DVec3; BOX_CORNERS]> {
 }
 
 /// Returns the edges of a box. The four edges of each direction follow each other.
-fn edges(part: &Part) -> impl Iterator<Item = &Feature> {
+fn edges(part: &ConvexPart) -> impl Iterator<Item = &Feature> {
     part.features.iter().filter(|feature| matches!(feature.patch, Patch::Line { .. }))
 }
 
 /// Returns the directions of the edges of a box.
-fn directions(part: &Part) -> [DVec3; 3] {
+fn directions(part: &ConvexPart) -> [DVec3; 3] {
     let mut found = [DVec3::ZERO; 3];
     for (found, edge) in found.iter_mut().zip(edges(part).step_by(4)) {
         if let Patch::Line { along, .. } = edge.patch {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::patch::{Patch, meet_placed};
-use super::solid::{Part, Pose};
+use super::solid::{ConvexPart, Pose};
 
 /// A feature of a convex part: a corner, an edge, a face, a rim or a round side. All coordinates are in body axes.
 #[derive(Clone, Debug)]
@@ -90,7 +90,7 @@ impl Feature {
     }
 
     /// Returns an upper bound of the feature's extent along a unit vector, m. `part` is the convex part that the feature belongs to.
-    pub(super) fn highest(&self, direction: DVec3, part: &Part) -> f64 {
+    pub(super) fn highest(&self, direction: DVec3, part: &ConvexPart) -> f64 {
         match self.patch {
             Patch::Point { at, radius } => at.dot(direction) + radius,
             Patch::Line { at, along, half, radius, .. } => {

@@ -6,11 +6,11 @@ use parry3d_f64::query::contact::contact_support_map_support_map;
 use parry3d_f64::shape::SupportMap;
 
 use super::closest_points::ClosestPoints;
-use super::solid::{Part, Pose};
+use super::solid::{ConvexPart, Pose};
 
 /// The core of a convex part as parry sees it: moved to the origin and scaled to a size of about 1, since parry's tolerances are absolute.
 struct Placed<'a> {
-    part: &'a Part,
+    part: &'a ConvexPart,
     pose: Pose,
     origin: DVec3,
     unit: f64,
@@ -24,7 +24,7 @@ impl SupportMap for Placed<'_> {
 }
 
 /// Computes the closest points of the cores of two convex parts by GJK. `None` if the algorithm fails or a part is infinite.
-pub(super) fn cores(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<ClosestPoints> {
+pub(super) fn cores(a: &ConvexPart, pa: &Pose, b: &ConvexPart, pb: &Pose) -> Option<ClosestPoints> {
     let origin = pa.point(a.centre);
     let unit = a.bound.max(b.bound);
     let far = (pb.point(b.centre) - origin).length();

@@ -7,7 +7,7 @@ use super::super::sets::Sets;
 use super::super::{Model, State};
 use super::approach::Approach;
 use super::closest_points::nearest;
-use super::collider::{CONTACT_TOLERANCE, Collider, SPEED_ROUNDING, Scale, is_passive};
+use super::collider::{CONTACT_TOLERANCE, Collider, ContactScale, SPEED_ROUNDING, is_passive};
 use super::crowd::Crowd;
 use super::lasting_contact::LastingContact;
 use super::laws::LawBook;
@@ -98,7 +98,7 @@ impl Collider {
             if is_passive(pair.bodies, model) {
                 continue;
             }
-            let (ways, scale) = (free[a] + free[b], Scale::of(pair.bodies, [x, y], (model, before)));
+            let (ways, scale) = (free[a] + free[b], ContactScale::of(pair.bodies, [x, y], (model, before)));
             let touch = scale.tolerance(CONTACT_TOLERANCE);
             let meet = touch + (PATH_MARGIN_FACTOR - 1.0) * ways;
             let is_settled = |body: usize| is_busy[body] || !model.can_move(body);
@@ -194,7 +194,7 @@ impl Collider {
             let [a, b] = pair.bodies;
             pair.free -= more[a] + more[b];
             let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { continue };
-            let touch = Scale::of(pair.bodies, [x, y], (model, state)).tolerance(CONTACT_TOLERANCE);
+            let touch = ContactScale::of(pair.bodies, [x, y], (model, state)).tolerance(CONTACT_TOLERANCE);
             if !is_passive(pair.bodies, model) && pair.free <= touch {
                 met.push(pair.bodies);
             }

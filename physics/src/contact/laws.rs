@@ -6,7 +6,7 @@
 
 use super::super::{BodyId, Breakdown, Model, State};
 use super::collider::Collider;
-use super::strike::kinetic;
+use super::impacts::kinetic;
 
 /// A law that no contact and no joint can break.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -21,7 +21,7 @@
 //! # Groups
 //!
 //! An event ends a part of a step for all bodies that advance together. If no joint or force couples bodies, groups of bodies that cannot
-//! meet within a step (`group.rs`) are advanced separately (`world/apart.rs`).
+//! meet within a step (`group.rs`) are advanced separately (`world/separate_groups.rs`).
 //!
 //! # Crowds and heaps
 //!
@@ -44,15 +44,16 @@
 
 mod approach;
 mod ball;
-mod change;
 mod closest_points;
 mod collider;
+mod contact_rates;
 mod crowd;
 mod facing;
 mod feature;
 #[cfg_attr(not(feature = "time-stepping"), path = "no_gjk.rs")]
 mod gjk;
 mod group;
+mod impacts;
 mod impulse;
 mod lasting_contact;
 mod laws;
@@ -61,7 +62,6 @@ mod patch;
 mod path;
 mod rim_bound;
 mod solid;
-mod strike;
 mod surface;
 #[cfg(test)]
 mod tests;
@@ -80,11 +80,11 @@ pub(super) use collider::Collider;
 #[cfg(feature = "time-stepping")]
 pub(super) use collider::crowded;
 pub(super) use group::Parting;
+pub(super) use impacts::kinetic;
 pub(super) use lasting_contact::LastingContact;
 pub use laws::{LawResidual, MotionLaw};
 pub(super) use path::pose;
 pub(super) use solid::{Pose, Solid};
-pub(super) use strike::kinetic;
 pub use surface::{ContactProperties, Surface};
 pub(super) use tree::Tree;
 

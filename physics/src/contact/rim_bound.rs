@@ -7,7 +7,7 @@ use super::approach::{Approach, are_convex};
 use super::closest_points::ClosestPoints;
 use super::patch::Patch;
 use super::path::Moving;
-use super::solid::Part;
+use super::solid::ConvexPart;
 
 /// The search for a root ends when the root is known to within this fraction of its value.
 const ROOT_TOLERANCE: f64 = 1e-3;
@@ -26,7 +26,7 @@ impl Approach<'_> {
         for (i, own) in moving.iter().enumerate() {
             let other = 1 - i;
             let solid = self.solids[other];
-            let is_below = solid.parts().iter().all(Part::is_ground) || are_convex(self.solids);
+            let is_below = solid.parts().iter().all(ConvexPart::is_ground) || are_convex(self.solids);
             if solid.is_ball() || !is_below {
                 continue;
             }

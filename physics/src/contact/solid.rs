@@ -26,7 +26,7 @@ pub(crate) struct Pose {
 pub(crate) struct Solid {
     reach: f64,
     size: f64,
-    parts: Arc<[Part]>,
+    parts: Arc<[ConvexPart]>,
     /// The tree of the convex parts' bounding boxes; `None` for all but meshes.
     tree: Option<Arc<Tree>>,
     is_surface: bool,
@@ -34,7 +34,7 @@ pub(crate) struct Solid {
 
 /// A convex part of a body: its core, enlarged on all sides by the rounding `radius`, m. All points are in body axes.
 #[derive(Debug)]
-pub(super) struct Part {
+pub(super) struct ConvexPart {
     pub(super) core: Core,
     pub(super) radius: f64,
     /// For a box parallel to the body axes, its half extents, m. `None` for all other parts.
@@ -80,8 +80,8 @@ impl Solid {
         let is_surface = parts.iter().any(|part| part.surface.is_some());
         let body = Pose::IDENTITY;
         let tree = is_surface.then(|| Tree::new(parts.iter().map(|part| part.box_in(&body, &body))).into());
-        let reach = parts.iter().map(Part::reach).fold(0.0, f64::max);
-        let size = parts.iter().map(Part::size).fold(f64::INFINITY, f64::min);
+        let reach = parts.iter().map(ConvexPart::reach).fold(0.0, f64::max);
+        let size = parts.iter().map(ConvexPart::size).fold(f64::INFINITY, f64::min);
         Some(Solid { parts: parts.into(), tree, is_surface, reach, size })
     }
 
@@ -124,13 +124,13 @@ impl Solid {
         self.is_surface
     }
 
-    pub(super) fn parts(&self) -> &[Part] {
+    pub(super) fn parts(&self) -> &[ConvexPart] {
         &self.parts
     }
 }
 
-impl Part {
-    fn new(core: Core, radius: f64, features: Vec<Feature>) -> Part {
+impl ConvexPart {
+    fn new(core: Core, radius: f64, features: Vec<Feature>) -> ConvexPart {
         let (centre, bound) = match &core {
             Core::Hull(corners) => {
                 let centre = corners.iter().sum::<DVec3>() / corners.len().max(1) as f64;
@@ -142,7 +142,7 @@ impl Part {
             }
             Core::Ground { at, .. } => (*at, f64::INFINITY),
         };
-        Part { core, radius, half: None, centre, bound: bound + radius, features, surface: None }
+        ConvexPart { core, radius, half: None, centre, bound: bound + radius, features, surface: None }
     }
 
     /// Returns the point of the convex part that is farthest along a vector of any length, body axes, m.
@@ -241,16 +241,16 @@ impl Core {
 }
 
 /// Appends the convex parts of a shape. `pose` is the pose of the shape in body axes. `None` if the shape has no surface for contacts.
-fn add(shape: &Shape, pose: &Pose, parts: &mut Vec<Part>) -> Option<()> {
+fn add(shape: &Shape, pose: &Pose, parts: &mut Vec<ConvexPart>) -> Option<()> {
     let up = pose.orientation * DVec3::Y;
     let along = |y: f64| pose.location + y * up;
     let ball = |radius: f64| {
         let patch = Patch::Point { at: pose.location, radius };
-        Part::new(Core::Hull(vec![pose.location]), radius, vec![Feature::all(patch)])
+        ConvexPart::new(Core::Hull(vec![pose.location]), radius, vec![Feature::all(patch)])
     };
     let rod = |half: f64, radius: f64, up: DVec3| {
         let ends = [pose.location - half * up, pose.location + half * up];
-        Part::new(Core::Hull(ends.to_vec()), radius, features_of_capsule(ends, radius))
+        ConvexPart::new(Core::Hull(ends.to_vec()), radius, features_of_capsule(ends, radius))
     };
     parts.push(match *shape {
         Shape::Sphere { radius } => ball(radius),
@@ -276,7 +276,7 @@ fn add(shape: &Shape, pose: &Pose, parts: &mut Vec<Part>) -> Option<()> {
         Shape::Plane { normal } => {
             let normal = pose.orientation * normal;
             let at = pose.location;
-            Part::new(Core::Ground { at, normal }, 0.0, features_of_ground(at, normal))
+            ConvexPart::new(Core::Ground { at, normal }, 0.0, features_of_ground(at, normal))
         }
         Shape::Compound(ref compound) => {
             for Piece { shape, location, orientation } in compound.parts() {
@@ -290,8 +290,8 @@ fn add(shape: &Shape, pose: &Pose, parts: &mut Vec<Part>) -> Option<()> {
             let half = shape.half_thickness().or(shape.bounding_radius());
             let size = 2.0 * half.unwrap_or(0.5);
             for (corners, features) in triangles(mesh, scale, pose) {
-                let part = Part::new(Core::Hull(corners.to_vec()), 0.0, features);
-                parts.push(Part { surface: Some(size), ..part });
+                let part = ConvexPart::new(Core::Hull(corners.to_vec()), 0.0, features);
+                parts.push(ConvexPart { surface: Some(size), ..part });
             }
             return Some(());
         }
@@ -300,18 +300,18 @@ fn add(shape: &Shape, pose: &Pose, parts: &mut Vec<Part>) -> Option<()> {
     Some(())
 }
 
-fn block(pose: &Pose, half: DVec3, radius: f64) -> Part {
+fn block(pose: &Pose, half: DVec3, radius: f64) -> ConvexPart {
     let corner = |i: u32| {
         let sign = |bit: u32| if i >> bit & 1 == 0 { -1.0 } else { 1.0 };
         pose.point(half * DVec3::new(sign(0), sign(1), sign(2)))
     };
     let corners = (0..8).map(corner).collect();
-    let part = Part::new(Core::Hull(corners), radius, features_of_box(pose, half, radius));
+    let part = ConvexPart::new(Core::Hull(corners), radius, features_of_box(pose, half, radius));
     let is_upright = radius == 0.0 && pose.orientation == DQuat::IDENTITY;
-    Part { half: is_upright.then_some(half), ..part }
+    ConvexPart { half: is_upright.then_some(half), ..part }
 }
 
-fn frustum(ends: [DVec3; 2], radii: [f64; 2]) -> Part {
+fn frustum(ends: [DVec3; 2], radii: [f64; 2]) -> ConvexPart {
     let axis = (ends[1] - ends[0]).normalize_or(DVec3::Y);
-    Part::new(Core::Frustum { ends, axis, radii }, 0.0, features_of_frustum(ends, axis, radii))
+    ConvexPart::new(Core::Frustum { ends, axis, radii }, 0.0, features_of_frustum(ends, axis, radii))
 }

@@ -6,7 +6,7 @@ use super::closest_points::{ClosestPoints, FEATURE_TOLERANCE, apart, ball_and, b
 use super::facing::{Facing, facing};
 use super::feature::Feature;
 use super::patch::{Patch, meet, meet_placed};
-use super::solid::{Core, Part, Pose, Solid};
+use super::solid::{ConvexPart, Core, Pose, Solid};
 
 /// A flat end lies flat on a face, and two sides lie along each other, if the sine of the angle between them is below this.
 const FLAT_CONTACT_SINE: f64 = 1e-7;
@@ -108,9 +108,9 @@ pub(crate) fn inside(touch: &Touch, a: &Solid, pa: &Pose, b: &Solid, pb: &Pose) 
 
 /// The search for the contact points of two convex parts.
 struct Pair<'a> {
-    a: &'a Part,
+    a: &'a ConvexPart,
     pa: &'a Pose,
-    b: &'a Part,
+    b: &'a ConvexPart,
     pb: &'a Pose,
     parts: [usize; 2],
     within: f64,
@@ -163,7 +163,7 @@ impl Pair<'_> {
         let (gap, normal, tops) = match facing(a, pa, b, pb, self.within) {
             Some(Facing::Apart) => return,
             Some(Facing::Near { gap, normal }) => {
-                let top = |part: &Part, pose: &Pose, normal: DVec3| {
+                let top = |part: &ConvexPart, pose: &Pose, normal: DVec3| {
                     let normal = pose.orientation.conjugate() * normal;
                     part.core.support(normal).dot(normal) + part.radius
                 };
@@ -376,13 +376,13 @@ fn is_needed(a: &Patch, b: &Patch) -> bool {
 
 /// Transforms the patches of some features of a convex part to world axes, relative to an origin. Returns them with the indices of the
 /// features.
-fn placed(part: &Part, pose: &Pose, origin: DVec3, features: Vec<usize>) -> Vec<(usize, Patch)> {
+fn placed(part: &ConvexPart, pose: &Pose, origin: DVec3, features: Vec<usize>) -> Vec<(usize, Patch)> {
     let pose = Pose { location: pose.location - origin, orientation: pose.orientation };
     features.into_iter().map(|i| (i, part.features[i].patch.placed(&pose))).collect()
 }
 
 /// Returns the indices of the features of a convex part that extend along `normal` at least as far as `lowest`, m, from the body's center.
-fn near_plane(part: &Part, pose: &Pose, lowest: f64, normal: DVec3) -> Vec<usize> {
+fn near_plane(part: &ConvexPart, pose: &Pose, lowest: f64, normal: DVec3) -> Vec<usize> {
     let normal = pose.orientation.conjugate() * normal;
     (0..part.features.len()).filter(|&i| part.features[i].highest(normal, part) >= lowest).collect()
 }
@@ -402,7 +402,7 @@ mod tests {
             return;
         }
         pair.depth = pair.within + nearest.gap.abs() + SAME_POINT_TOLERANCE * pair.a.bound.min(pair.b.bound);
-        let near = |part: &Part, pose: &Pose, at: DVec3, normal: DVec3| {
+        let near = |part: &ConvexPart, pose: &Pose, at: DVec3, normal: DVec3| {
             let lowest = pose.local(at).dot(pose.orientation.conjugate() * normal) - pair.depth;
             near_plane(part, pose, lowest, normal)
         };

@@ -13,7 +13,7 @@ mod rk4;
 mod rotation;
 mod runge_kutta;
 mod splitting;
-mod straight;
+mod torque_free;
 mod velocities;
 mod velocity_verlet;
 mod yoshida4;

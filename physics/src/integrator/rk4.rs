@@ -2,7 +2,7 @@
 
 use super::super::{State, System};
 use super::runge_kutta::{Slope, follow};
-use super::straight::{Stage, Straight};
+use super::torque_free::{Stage, TorqueFree};
 use super::{Integrator, Method};
 
 /// The classical Runge–Kutta method. Source: W. Kutta, Z. Math. Phys. 46 (1901) 435; Hairer, Nørsett & Wanner, *Solving Ordinary
@@ -22,14 +22,14 @@ pub(super) const METHOD: Method = Method {
 struct Rk4 {
     stage: State,
     slopes: [Slope; 4],
-    straight: Straight,
+    straight: TorqueFree,
 }
 
 impl Integrator for Rk4 {
     fn advance(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State) {
         let half = 0.5 * dt;
         let Self { stage, slopes: [k1, k2, k3, k4], straight } = self;
-        if Straight::suits(system) {
+        if TorqueFree::suits(system) {
             let stages = [
                 Stage { time: t, weight: 1.0 / 6.0, next: half },
                 Stage { time: t + half, weight: 1.0 / 3.0, next: half },

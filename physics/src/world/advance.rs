@@ -2,7 +2,7 @@
 
 use super::super::{Snapshot, State, Step, System};
 use super::event::Counts;
-use super::picture::picture;
+use super::snapshot::picture;
 use super::{World, laws_of};
 
 /// An interval that exceeds a whole number of steps by less than this fraction gets no further step. Decimal fractions have rounding

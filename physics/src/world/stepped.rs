@@ -1,7 +1,7 @@
 //! Steps by Moreau's scheme alone: no event is located, and all contacts of a part of a step are solved together.
 
 use super::World;
-use super::picture::picture;
+use super::snapshot::picture;
 use crate::contact::Collider;
 use crate::{ContactSnapshot, Contacts, Model, Snapshot, State, System};
 

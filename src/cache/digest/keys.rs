@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
-use self::document::{Document, Id, Place};
+use self::document::{Document, Id, KeyInFile};
 use self::other::others;
 use crate::scene::grammar::{Kind, SCENE, TableSpec};
 
@@ -71,7 +71,7 @@ fn documents(folder: &str) -> Vec<Document> {
 }
 
 /// Tries other values of a key until one changes the digest. If the key only draws, a few values are tried.
-fn effect(place: &Place<'_>) -> Effect {
+fn effect(place: &KeyInFile<'_>) -> Effect {
     let digests = others(place).into_iter().filter_map(|other| place.digest_with(other.as_deref()));
     let most = if only_draws(place.id()) { MAX_TRIES } else { usize::MAX };
     let mut effect = Effect::Untried;
@@ -85,8 +85,8 @@ fn effect(place: &Place<'_>) -> Effect {
 }
 
 /// Returns all values of the scenes in `tests/keys`, and a few values of each key that only draws from the gallery.
-fn places<'a>(own: &'a [Document], gallery: &'a [Document]) -> Vec<Place<'a>> {
-    let mut places: Vec<Place<'a>> = own.iter().flat_map(Document::places).collect();
+fn places<'a>(own: &'a [Document], gallery: &'a [Document]) -> Vec<KeyInFile<'a>> {
+    let mut places: Vec<KeyInFile<'a>> = own.iter().flat_map(Document::places).collect();
     let mut counts: BTreeMap<Id, usize> = BTreeMap::new();
     for place in gallery.iter().filter(|scene| scene.bodies <= MAX_BODIES).flat_map(Document::places) {
         let count = counts.entry(place.id()).or_default();

@@ -66,7 +66,7 @@ fn label(out: &mut String, (of, text): (&str, &Text<'_>), y: impl Fn(f64) -> Str
 }
 
 /// A part of a text with letters of one size and weight, in units of the image plane.
-struct Part<'a> {
+struct TextRun<'a> {
     letters: &'a str,
     weight: Weight,
     x: f64,
@@ -77,7 +77,7 @@ struct Part<'a> {
 }
 
 /// Divides a text into parts with letters of one size and weight, each on one line. An empty line has no parts, if there are others.
-fn parts<'a>(text: &'a Text<'_>) -> Vec<Part<'a>> {
+fn parts<'a>(text: &'a Text<'_>) -> Vec<TextRun<'a>> {
     if text.says.trim().is_empty() {
         return parts_of_line(text, "");
     }
@@ -86,7 +86,7 @@ fn parts<'a>(text: &'a Text<'_>) -> Vec<Part<'a>> {
     for line in text.says.split('\n') {
         if !line.trim().is_empty() {
             let moved = parts_of_line(text, line).into_iter();
-            parts.extend(moved.map(|part| Part { rise: part.rise - below, ..part }));
+            parts.extend(moved.map(|part| TextRun { rise: part.rise - below, ..part }));
         }
         below += LINE * text.height;
     }
@@ -94,9 +94,9 @@ fn parts<'a>(text: &'a Text<'_>) -> Vec<Part<'a>> {
 }
 
 /// Divides a line of a text into parts with letters of one size and weight.
-fn parts_of_line<'a>(text: &Text<'_>, line: &'a str) -> Vec<Part<'a>> {
+fn parts_of_line<'a>(text: &Text<'_>, line: &'a str) -> Vec<TextRun<'a>> {
     let runs: Vec<lettering::Run<'a>> = lettering::runs(line).collect();
-    let part = |(letters, weight), x, (rise, size): (f64, f64), align| Part {
+    let part = |(letters, weight), x, (rise, size): (f64, f64), align| TextRun {
         letters,
         weight,
         x,

@@ -2,7 +2,7 @@
 
 use super::super::occupancy::Rectangle;
 use super::super::screen::{Screen, ScreenPoint};
-use super::super::surroundings::{Movable, Place};
+use super::super::surroundings::{Movable, TextPlace};
 use super::super::text::{LINE, MARGIN, Text, Vertical, below};
 use super::{Key, Labels, Planned};
 use crate::physics::BodySnapshot;
@@ -63,7 +63,7 @@ impl Labels {
         let place = |(x, y, align): (f64, f64, f64), cost: f64| {
             let Text { x, y, align, .. } =
                 self.kept_inside(Text { x, y: Vertical::Middle(y), align, ..text.clone() });
-            Place { x, y, align, cost }
+            TextPlace { x, y, align, cost }
         };
         let others = match side {
             Side::Above | Side::Below => [side, opposite(side), Side::Right, Side::Left],

@@ -13,12 +13,12 @@ use crate::scene::{Corner, LabelPlace};
 pub(super) struct Layout {
     pub(super) from: f64,
     /// The places of the visible labels, each with the index of its label.
-    pub(super) places: Vec<(usize, Place)>,
+    pub(super) places: Vec<(usize, FirstLine)>,
 }
 
 /// The position of a label: that of the first base line.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct FirstLine {
     pub(super) x: f64,
     pub(super) y: Vertical,
     pub(super) align: f64,
@@ -48,7 +48,7 @@ impl Layout {
                 true => Vertical::Top(inset + 0.3 * height),
                 false => Vertical::Bottom(inset - 0.3 * height + below(rows, height)),
             };
-            places.push((*number, Place { x, y, align }));
+            places.push((*number, FirstLine { x, y, align }));
         }
         let in_center = || visible.iter().filter(|(_, block)| block.label.place == LabelPlace::Center);
         let size = [
@@ -58,7 +58,7 @@ impl Layout {
         let mut top = size[1] / 2.0 + middle(&taken, size, (free, aspect));
         for (number, block) in in_center() {
             let y = Vertical::Middle(top - (0.5 * LINE + 0.3) * block.height);
-            places.push((*number, Place { x: free.center, y, align: 0.5 }));
+            places.push((*number, FirstLine { x: free.center, y, align: 0.5 }));
             top -= block.high();
         }
         // In the order of the scene.

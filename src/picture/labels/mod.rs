@@ -104,7 +104,7 @@ impl Labels {
         let Some(layout) = next.checked_sub(1).and_then(|number| self.layouts.get(number)) else {
             return Vec::new();
         };
-        let text = |(number, place): &(usize, corner::Place)| {
+        let text = |(number, place): &(usize, corner::FirstLine)| {
             let planned = &self.labels[*number];
             let said = self.said(&planned.block.label.text, &now);
             (*number, planned.text(said.into(), (place.x, place.y), place.align))

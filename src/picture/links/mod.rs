@@ -22,7 +22,7 @@ const WIRE: f64 = 0.14;
 #[derive(Clone, Debug)]
 pub(super) struct Links {
     /// The drawn parts of all springs, in the order of the forces, and then of all joints. The parts of one spring or joint are adjacent.
-    parts: Vec<Part>,
+    parts: Vec<LinkPart>,
     /// The drawn shape of each body, indexed by body. Empty without parts.
     shapes: Vec<Shape>,
     /// The factor by which each body is drawn larger, indexed by body.
@@ -50,7 +50,7 @@ pub(super) struct SpringSize {
 
 /// A part of a spring or joint. It is drawn while the bodies at both ends of the spring or joint are present.
 #[derive(Clone, Debug)]
-struct Part {
+struct LinkPart {
     name: String,
     between: [Anchor; 2],
     form: PlannedShape,
@@ -88,13 +88,13 @@ impl Links {
             _ => None,
         });
         let pulleys: BTreeMap<usize, Pulley> = pulleys.collect();
-        let ends = |part: &Part| match part.form {
+        let ends = |part: &LinkPart| match part.form {
             PlannedShape::OverWheels { joint, .. } | PlannedShape::Wheel { joint, .. } => {
                 pulleys.get(&joint).map_or_else(Vec::new, |pulley| pulley.path().to_vec())
             }
             _ => part.between.to_vec(),
         };
-        let bodies = parts.iter().enumerate().flat_map(|(number, part): (usize, &Part)| {
+        let bodies = parts.iter().enumerate().flat_map(|(number, part): (usize, &LinkPart)| {
             ends(part).into_iter().filter_map(Anchor::body).map(move |body| (body.index(), number))
         });
         let mut of_bodies: Vec<(usize, usize)> = bodies.collect();
@@ -143,7 +143,7 @@ impl Links {
     }
 
     /// Computes the shape of a part in a frame. `None` while one of its bodies is absent, or if the bodies at its ends leave no room.
-    fn link<'a>(&'a self, part: &'a Part, frame: &Frame) -> Option<Thing<'a>> {
+    fn link<'a>(&'a self, part: &'a LinkPart, frame: &Frame) -> Option<Thing<'a>> {
         // A fixed point is always present.
         let is_there = |end: Anchor| end.body().is_none_or(|id| frame.body(id.index()).is_some());
         if !part.between.into_iter().all(is_there) {

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Part, PlannedShape, SpringSize, room_for};
+use super::{LinkPart, PlannedShape, SpringSize, room_for};
 use crate::physics::{Anchor, Hinge, Rope, Slider, Spring};
 use crate::scene::{Color, ForceKind, Joint, JointKind, JointLook, Scene, SpringLine, SpringLook};
 use crate::simulate::{RequestedSizes, RequestedSlider, surface, touch_at_start};
@@ -13,7 +13,7 @@ const STEEL: Color = Color([0.62, 0.64, 0.67]);
 const HEMP: Color = Color([0.76, 0.64, 0.45]);
 
 /// Plans the parts of all drawn springs and joints.
-pub(super) fn parts(scene: &Scene, sizes: &RequestedSizes) -> Vec<Part> {
+pub(super) fn parts(scene: &Scene, sizes: &RequestedSizes) -> Vec<LinkPart> {
     let mut parts = Vec::new();
     for force in &scene.forces {
         let ForceKind::Spring { links, look: Some(look) } = &force.kind else { continue };
@@ -42,11 +42,11 @@ pub(super) fn springs(scene: &Scene) -> Vec<SpringSize> {
 }
 
 /// Adds the parts of a spring: the coil or line, and a ball at each end that is a fixed point.
-fn spring(scene: &Scene, name: &str, link: &Spring, look: &SpringLook, parts: &mut Vec<Part>) {
+fn spring(scene: &Scene, name: &str, link: &Spring, look: &SpringLook, parts: &mut Vec<LinkPart>) {
     let (radius, free) = spring_size(scene, link, look);
     let between = link.between;
     let color = look.color.unwrap_or(STEEL);
-    let part = |form: PlannedShape| Part { name: name.to_owned(), between, form, color };
+    let part = |form: PlannedShape| LinkPart { name: name.to_owned(), between, form, color };
     let (knob, form) = match look.line {
         SpringLine::Coil { turns } => {
             let turns = turns.unwrap_or_else(|| usual_turns(free / (1.5 * radius)));
@@ -104,7 +104,7 @@ fn joint(
     (number, joint): (usize, &Joint),
     look: JointLook,
     travel: Option<&RequestedSlider>,
-    parts: &mut Vec<Part>,
+    parts: &mut Vec<LinkPart>,
 ) {
     let between = joint.kind.between();
     let is_rope = matches!(joint.kind, JointKind::Rope(_) | JointKind::Pulley(_));
@@ -112,7 +112,7 @@ fn joint(
     let mut add = |form: PlannedShape| {
         // The wheels of a pulley have another color than its rope.
         let color = if matches!(form, PlannedShape::Wheel { .. }) { STEEL } else { color };
-        parts.push(Part { name: joint.name.clone(), between, form, color });
+        parts.push(LinkPart { name: joint.name.clone(), between, form, color });
     };
     match &joint.kind {
         JointKind::Rod(_) => {

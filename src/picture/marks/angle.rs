@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{HELPING_LINE_RADIUS, MAIN_LINE_RADIUS, Mark, Note, Says, Scale, Sides, Sketch};
+use super::{FrameView, HELPING_LINE_RADIUS, MAIN_LINE_RADIUS, Mark, Note, Says, Sides, Sketch};
 use crate::physics::Anchor;
 use crate::picture::thing::{Form, Line, Thing};
 use crate::scene::{Angle, Body, Color, Leg, Scene};
@@ -49,7 +49,7 @@ pub(super) fn drawn(anchor: Anchor, bodies: &[Body]) -> Anchor {
 }
 
 impl Mark for AngleMark {
-    fn draw<'a>(&'a self, scale: &Scale<'_>, sketch: &mut Sketch<'a>) {
+    fn draw<'a>(&'a self, scale: &FrameView<'_>, sketch: &mut Sketch<'a>) {
         let Some(now) = AngleNow::of(&self.angle, self.measures.bodies(), &scale.frame.bodies) else {
             return;
         };

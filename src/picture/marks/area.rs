@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::angle::drawn;
-use super::{HELPING_LINE_RADIUS, Mark, Scale, Sketch};
+use super::{FrameView, HELPING_LINE_RADIUS, Mark, Sketch};
 use crate::picture::thing::{Form, Line, Thing};
 use crate::scene::{Area, Color, Scene};
 use crate::simulate::place;
@@ -35,7 +35,7 @@ pub(super) fn marks(scene: &Scene) -> Vec<Arc<dyn Mark>> {
 }
 
 impl Mark for AreaMark {
-    fn draw<'a>(&'a self, scale: &Scale<'_>, sketch: &mut Sketch<'a>) {
+    fn draw<'a>(&'a self, scale: &FrameView<'_>, sketch: &mut Sketch<'a>) {
         let frame = scale.frame;
         let Some(center) = place(self.area.center, &frame.bodies) else { return };
         let mut turn = 0.0;

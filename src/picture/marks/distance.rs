@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{BVec3, DVec3};
 
 use super::angle::drawn;
-use super::{HELPING_LINE_RADIUS, MAIN_LINE_RADIUS, Mark, Note, Says, Scale, Sides, Sketch};
+use super::{FrameView, HELPING_LINE_RADIUS, MAIN_LINE_RADIUS, Mark, Note, Says, Sides, Sketch};
 use crate::physics::Anchor;
 use crate::picture::length::prefixed;
 use crate::picture::number;
@@ -59,7 +59,7 @@ pub(in crate::picture) fn with_lines(scene: &Scene, bounds: Bounds) -> Bounds {
 }
 
 impl Mark for DistanceMark {
-    fn draw<'a>(&'a self, scale: &Scale<'_>, sketch: &mut Sketch<'a>) {
+    fn draw<'a>(&'a self, scale: &FrameView<'_>, sketch: &mut Sketch<'a>) {
         let Some(now) = DistanceNow::of(&self.distance, &scale.frame.bodies) else { return };
         let [begin, end] = now.line;
         let middle = (begin + end) / 2.0;
@@ -99,7 +99,7 @@ impl Mark for DistanceMark {
 }
 
 /// The middle of the part of a line that is in the picture. `None` if no part is.
-fn middle_of_visible([begin, end]: [DVec3; 2], scale: &Scale<'_>) -> Option<DVec3> {
+fn middle_of_visible([begin, end]: [DVec3; 2], scale: &FrameView<'_>) -> Option<DVec3> {
     /// The number of points of the line that are tried.
     const POINTS: u32 = 64;
     let is_visible = |point: &DVec3| {

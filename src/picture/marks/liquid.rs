@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{HELPING_LINE_RADIUS, Mark, Scale, Sketch};
+use super::{FrameView, HELPING_LINE_RADIUS, Mark, Sketch};
 use crate::picture::camera::Placed;
 use crate::picture::thing::{Form, Line, Thing};
 use crate::scene::{Color, ForceKind, Scene};
@@ -44,7 +44,7 @@ pub(super) fn marks(scene: &Scene, camera: &Placed, view: f64) -> Vec<Arc<dyn Ma
 }
 
 impl Mark for SurfaceMark {
-    fn draw<'a>(&'a self, scale: &Scale<'_>, sketch: &mut Sketch<'a>) {
+    fn draw<'a>(&'a self, scale: &FrameView<'_>, sketch: &mut Sketch<'a>) {
         let radius = HELPING_LINE_RADIUS * scale.stroke;
         let line =
             |number: usize| Line { from: self.corners[number], to: self.corners[(number + 1) % 4], radius };

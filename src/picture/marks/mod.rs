@@ -31,7 +31,7 @@ const MAIN_LINE_RADIUS: f64 = 0.4;
 const HELPING_LINE_RADIUS: f64 = 0.22;
 
 /// A frame, and how its camera sees it.
-pub(super) struct Scale<'a> {
+pub(super) struct FrameView<'a> {
     pub(super) frame: &'a Frame,
     pub(super) camera: &'a Placed,
     pub(super) screen: &'a Screen,
@@ -53,7 +53,7 @@ pub(super) struct Sketch<'a> {
 /// Something that a scene measures or names in the picture.
 trait Mark: Debug + Send + Sync {
     /// Draws the mark in a frame. Draws nothing while a body that it needs is absent.
-    fn draw<'a>(&'a self, scale: &Scale<'_>, sketch: &mut Sketch<'a>);
+    fn draw<'a>(&'a self, scale: &FrameView<'_>, sketch: &mut Sketch<'a>);
 }
 
 /// The marks of a scene.
@@ -84,7 +84,7 @@ impl Marks {
     }
 
     /// Draws all marks in a frame.
-    pub(super) fn sketch(&self, scale: &Scale<'_>) -> Sketch<'_> {
+    pub(super) fn sketch(&self, scale: &FrameView<'_>) -> Sketch<'_> {
         let mut sketch = Sketch::default();
         self.marks.iter().for_each(|mark| mark.draw(scale, &mut sketch));
         sketch

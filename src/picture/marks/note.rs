@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::font::Typeface;
 use crate::picture::labels::Labels;
 use crate::picture::screen::Screen;
-use crate::picture::surroundings::{Key, Movable, Place};
+use crate::picture::surroundings::{Key, Movable, TextPlace};
 use crate::picture::text::{Text, Vertical, width};
 use crate::scene::{Color, Piece};
 use crate::simulate::MomentState;
@@ -112,7 +112,7 @@ pub(in crate::picture) fn movable<'a>(
         // The base line is below the middle of the letters.
         let y = Vertical::Middle(y - 0.25 * height);
         let Text { x, y, align, .. } = labels.kept_inside(Text { x, y, ..text.clone() });
-        Place { x, y, align, cost: farther + note.sides.cost(turn, way) }
+        TextPlace { x, y, align, cost: farther + note.sides.cost(turn, way) }
     };
     let places = TRIED_DISTANCES
         .into_iter()

@@ -1,10 +1,10 @@
 //! The size of the largest body in the picture, to warn if no body is large enough to be seen.
 
 use super::super::camera::{MovingCamera, half_width};
+use super::super::direction_hints::DirectionHints;
 use super::super::followed::FollowedValues;
+use super::super::framed_run::{FramedPart, largest};
 use super::super::framing;
-use super::super::scope::{Part, largest};
-use super::super::sight::Sight;
 use crate::scene::{Body, Camera, Scene};
 use crate::simulate::{Bounds, Survey};
 
@@ -36,7 +36,7 @@ impl Largest {
         let body: &Body = largest(scene)?;
         let whole = survey.spans.last()?.framed();
         let pixels = |view: f64| 2.0 * half_width(body).unwrap_or(0.0) / view * f64::from(scene.output.width);
-        let towards = framing::towards_camera(whole.moving, Sight::of(scene));
+        let towards = framing::towards_camera(whole.moving, DirectionHints::of(scene));
         let seen = framing::rounded_outward(whole.seen);
         let on_whole = MovingCamera::new(camera, seen, towards, scene, followed);
         Some(Largest {
@@ -50,11 +50,11 @@ impl Largest {
     /// Returns true if a warning must say that the body is too small. If the camera shows the whole run, this is so if the body is smaller
     /// than [`SMALLEST_SEEN`]. If the camera follows a body, the size that the body would have in a picture of the whole run decides. If the
     /// camera shows only the start of the run, it does so because the body would be too small otherwise.
-    pub(super) fn is_too_small(&self, part: Part) -> bool {
+    pub(super) fn is_too_small(&self, part: FramedPart) -> bool {
         match part {
-            Part::Whole => self.pixels < SMALLEST_SEEN,
-            Part::Start(_) => true,
-            Part::Along => self.pixels_in_whole < SMALLEST_SEEN,
+            FramedPart::Whole => self.pixels < SMALLEST_SEEN,
+            FramedPart::Start(_) => true,
+            FramedPart::Along => self.pixels_in_whole < SMALLEST_SEEN,
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::Plan;
 use crate::picture::arrows::Arrow;
 use crate::picture::in_front::lift_from_link;
-use crate::picture::marks::{Scale, Sketch};
+use crate::picture::marks::{FrameView, Sketch};
 use crate::picture::thing::{Form, Thing};
 use crate::scene::ArrowOwner;
 use crate::simulate::{Frame, Ghost};
@@ -46,7 +46,7 @@ impl Plan {
         }
         let (camera, sizes) = (self.eye.at(frame), self.sizes(frame));
         let screen = camera.screen();
-        let scale = Scale {
+        let scale = FrameView {
             frame,
             camera: &camera,
             screen: &screen,

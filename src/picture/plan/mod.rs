@@ -16,8 +16,10 @@ use self::largest::narrowest_view;
 use super::arrows::{Arrow, ArrowSizes, Arrows, round_scales};
 use super::bar::{Bar, ScaleBars};
 use super::camera::{Lens, MovingCamera, Placed};
+use super::direction_hints::DirectionHints;
 use super::favored_places::Favored;
 use super::followed::FollowedValues;
+use super::framed_run::{FramedPart, FramedRun};
 use super::ghosts::Ghosts;
 use super::grid::{GridLayout, GridPlan};
 use super::in_front::Planes;
@@ -28,9 +30,7 @@ use super::looks::{LookMaps, Looks};
 use super::marks::{ArrowMarks, Marks, with_lines};
 use super::not_drawn::{self, NotDrawn};
 use super::plots::{PlannedPlot, PlotNow, Plots, UnseenPlot};
-use super::scope::{Part, Scope};
 use super::screen::Screen;
-use super::sight::Sight;
 use super::stage::{Scenery, Stage, stroke};
 use super::thing::{PlannedThing, Thing};
 use super::trails::{Trail, Trails};
@@ -71,7 +71,7 @@ pub struct Plan {
     sizes: Sizes,
     largest: Option<Largest>,
     /// The part of the run that the camera frames.
-    part: Part,
+    part: FramedPart,
     not_drawn: Vec<NotDrawn>,
     unseen_plots: Vec<UnseenPlot>,
 }
@@ -104,13 +104,13 @@ impl Plan {
     pub fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Plan {
         let followed = FollowedValues::new(scene, survey);
         let measures = Arc::clone(followed.measures());
-        let scope = Scope::new(scene, camera, survey, &followed);
-        let (span, whole) = (&scope.span, scope.whole);
-        let towards = framing::towards_camera(span.moving, Sight::of(scene));
+        let framed_run = FramedRun::new(scene, camera, survey, &followed);
+        let (span, whole) = (&framed_run.span, framed_run.whole);
+        let towards = framing::towards_camera(span.moving, DirectionHints::of(scene));
         let eye_on = |bounds: Bounds| {
             let bounds = framing::rounded_outward(bounds);
             let still = MovingCamera::new(camera, bounds, towards, scene, &followed);
-            match &scope.track {
+            match &framed_run.track {
                 Some(track) => still.along(Arc::clone(track)),
                 None => still,
             }
@@ -120,7 +120,7 @@ impl Plan {
         let first = eye_on(span.seen);
         let view = first.early(0.0).width_of_view(whole);
         let ink = colors::ink(scene.environment.is_dark());
-        let scenery = Scenery::new(scene, &scope, view);
+        let scenery = Scenery::new(scene, &framed_run, view);
         let part = first.moves().then_some(view);
         let ruler = scene.grid.map(|grid| GridPlan::new(scene, grid, &scenery, part, ink));
         let longest = std::array::from_fn(|kind: usize| span.arrows[kind].largest);
@@ -175,7 +175,7 @@ impl Plan {
             arrow_marks: ArrowMarks::new(scene),
             screen: has_texts(scene).then(|| placed.screen()),
             largest: Largest::seen(scene, camera, survey, &eye, &followed),
-            part: scope.part,
+            part: framed_run.part,
             sizes,
             stage,
             eye,
@@ -386,7 +386,7 @@ impl Plan {
     }
 
     /// The part of the run that the camera frames.
-    pub fn part(&self) -> Part {
+    pub fn part(&self) -> FramedPart {
         self.part
     }
 

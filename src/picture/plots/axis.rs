@@ -48,7 +48,7 @@ enum Numbers {
 
 /// What an axis must show, and how its values are spaced.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Scale {
+pub(super) enum AxisScale {
     /// Equal distances are equal differences.
     Linear(Range),
     /// Equal distances are equal ratios. All values are positive.
@@ -77,13 +77,13 @@ pub(super) struct Range {
     pub(super) is_count: bool,
 }
 
-impl Scale {
+impl AxisScale {
     /// Makes the axis. It has about `count` numbers.
     pub(super) fn axis(&self, count: f64) -> Axis {
         match self {
-            Scale::Linear(range) => Axis::new(range, count),
-            Scale::Logarithmic(range) => Axis::logarithmic(range, count),
-            Scale::Names(names) => Axis {
+            AxisScale::Linear(range) => Axis::new(range, count),
+            AxisScale::Logarithmic(range) => Axis::logarithmic(range, count),
+            AxisScale::Names(names) => Axis {
                 low: 0.0,
                 high: f64::from(*names).max(1.0),
                 is_logarithmic: false,
@@ -283,7 +283,7 @@ mod tests {
     #[test]
     fn equal_ratios_have_equal_distances_on_a_logarithmic_axis() {
         let range = Range { span: [0.01, 100.0], is_wider: true, is_count: false };
-        let scale = Scale::Logarithmic(range).axis(4.0);
+        let scale = AxisScale::Logarithmic(range).axis(4.0);
         for (value, place) in [(0.01, 0.0), (0.1, 0.25), (1.0, 0.5), (100.0, 1.0)] {
             assert!((scale.place(value) - place).abs() < 1e-12, "{value}");
         }
@@ -291,7 +291,7 @@ mod tests {
             assert!(scale.place(value).is_nan(), "{value}");
         }
         // In a narrow range, the numbers are those of a linear axis.
-        let narrow = Scale::Logarithmic(Range { span: [4.1, 4.9], ..range }).axis(4.0);
+        let narrow = AxisScale::Logarithmic(Range { span: [4.1, 4.9], ..range }).axis(4.0);
         assert_eq!(said(&narrow), ["4.2", "4.4", "4.6", "4.8"]);
         assert!((narrow.place(libm::sqrt(narrow.low * narrow.high)) - 0.5).abs() < 1e-12);
     }
@@ -303,7 +303,7 @@ mod tests {
             for high in ends.into_iter().filter(|high| *high >= low) {
                 for (is_wider, count) in [(false, 1.0), (true, 1.0), (false, 6.0), (true, 6.0)] {
                     let range = Range { span: [low, high], is_wider, is_count: false };
-                    let scale = Scale::Logarithmic(range).axis(count);
+                    let scale = AxisScale::Logarithmic(range).axis(count);
                     let ticks = scale.ticks();
                     assert!(ticks.len() < 50 && scale.between().len() < 1000, "{low} to {high}: {scale:?}");
                     assert!(scale.low > 0.0 && scale.high > scale.low, "{low} to {high}: {scale:?}");

@@ -3,7 +3,7 @@
 use super::super::number::with_sign;
 use super::super::occupancy::Rectangle;
 use super::super::text::{Text, Vertical, width};
-use super::axis::{Axis, Scale, Tick};
+use super::axis::{Axis, AxisScale, Tick};
 use super::ends::apart;
 use super::room::Room;
 use super::{Axes, PlotLine};
@@ -86,7 +86,12 @@ pub(super) struct Panel {
 
 impl Panel {
     /// Lays out a plot. If its words need more room than there is, its letters get smaller, and its longest words are cut.
-    pub(super) fn new(plot: &Plot, legend: &Legend<'_>, scales: &[Scale; 2], room: &Room) -> (Panel, Axes) {
+    pub(super) fn new(
+        plot: &Plot,
+        legend: &Legend<'_>,
+        scales: &[AxisScale; 2],
+        room: &Room,
+    ) -> (Panel, Axes) {
         let with = |scale: f64| Panel::with_letters(scale * room.line, plot, legend, scales, room);
         let [usual, smaller @ ..] = LETTERS;
         let (mut panel, mut axes, mut fits) = with(usual);
@@ -104,7 +109,7 @@ impl Panel {
         line: f64,
         plot: &Plot,
         legend: &Legend<'_>,
-        scales: &[Scale; 2],
+        scales: &[AxisScale; 2],
         room: &Room,
     ) -> (Panel, Axes, bool) {
         let (wide, most) = (room.panel_width(), room.max_height());

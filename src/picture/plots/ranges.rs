@@ -1,6 +1,6 @@
 //! What the axes of plots must show, from the values of the whole run.
 
-use super::axis::{Axis, Range, Scale};
+use super::axis::{Axis, AxisScale, Range};
 use super::bars;
 use crate::scene::{Plot, PlotKind, Scene};
 use crate::simulate::{CurvePoint, Spread, Survey};
@@ -38,11 +38,11 @@ impl<'a> Values<'a> {
 }
 
 /// Returns what the horizontal and the vertical axis of a plot must show.
-pub(super) fn scales(scene: &Scene, plot: &Plot, values: &Values<'_>) -> [Scale; 2] {
+pub(super) fn scales(scene: &Scene, plot: &Plot, values: &Values<'_>) -> [AxisScale; 2] {
     let unknown = |axis: usize| SPANS_OF_UNKNOWN_VALUES[usize::from(plot.is_logarithmic[axis])];
     let scale = |axis: usize, range: Range| match plot.is_logarithmic[axis] {
-        true => Scale::Logarithmic(range),
-        false => Scale::Linear(range),
+        true => AxisScale::Logarithmic(range),
+        false => AxisScale::Linear(range),
     };
     let is_count = plot.curves.iter().all(|curve| curve.y.is_count);
     let upright = |of_values: Option<[f64; 2]>, is_count: bool| Range {
@@ -69,7 +69,7 @@ pub(super) fn scales(scene: &Scene, plot: &Plot, values: &Values<'_>) -> [Scale;
         PlotKind::Bars { .. } => {
             let with_zero = values.span(1).map(|[low, high]| [low.min(0.0), high.max(0.0)]);
             let names = u8::try_from(plot.curves.len()).unwrap_or(u8::MAX);
-            [Scale::Names(names), scale(1, upright(with_zero, is_count))]
+            [AxisScale::Names(names), scale(1, upright(with_zero, is_count))]
         }
         PlotKind::Histogram { bins, .. } => {
             let spread = values.spread.filter(|spread| spread.span.is_some());
@@ -80,7 +80,7 @@ pub(super) fn scales(scene: &Scene, plot: &Plot, values: &Values<'_>) -> [Scale;
             let counts = spread.iter().flat_map(|spread| &spread.frames);
             let counts = counts.flat_map(|values| bars::counts(values, &axis, *bins));
             let most = counts.fold(1.0, f64::max);
-            [Scale::Linear(level), scale(1, upright(Some([0.0, most]), true))]
+            [AxisScale::Linear(level), scale(1, upright(Some([0.0, most]), true))]
         }
     }
 }

@@ -10,11 +10,11 @@ use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::random::Stream;
 use crate::physics::{Births, BodyId, Draw, Origin, ParticleSource, Shape, Surface, Triangles, has_surface};
-use crate::scene::drawn::{Drawn, DrawnFormula};
 use crate::scene::expand::in_string;
 use crate::scene::grammar::emitters::{cuboid, disc, emitter, from, shape, sphere};
 use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::{Key, KeySpec};
+use crate::scene::sampled_number::{SampledFormula, SampledNumber};
 use crate::scene::{Body, Color, ContactLaw, Emitter, SimulationSettings};
 
 /// The maximum number of particles of one emitter that are alive at the same time.
@@ -63,7 +63,7 @@ impl Reader<'_, '_> {
         let births = self.births();
         let (lifetime, longest_life) = self.lifetime(&births);
         let speed = view.get(&emitter::SPEED);
-        if let Drawn::Formula(formula) = &speed {
+        if let SampledNumber::Formula(formula) = &speed {
             self.each_draw(&emitter::SPEED.spec, formula, &births, |_| None);
         }
         let direction = view.get(&emitter::DIRECTION);
@@ -226,14 +226,14 @@ impl Reader<'_, '_> {
     ///
     /// If a formula gives the lifetime, the longest lifetime is the largest of many samples. Longer lifetimes in the run are cut to the
     /// longest lifetime.
-    fn lifetime(&mut self, births: &Births) -> (Drawn, f64) {
-        let lifetime = self.view.get(&emitter::LIFETIME).unwrap_or(Drawn::Constant(f64::INFINITY));
-        if let Drawn::Constant(f64::INFINITY) = lifetime {
+    fn lifetime(&mut self, births: &Births) -> (SampledNumber, f64) {
+        let lifetime = self.view.get(&emitter::LIFETIME).unwrap_or(SampledNumber::Constant(f64::INFINITY));
+        if let SampledNumber::Constant(f64::INFINITY) = lifetime {
             self.warn_of_endless_lives();
         }
         let longest = match &lifetime {
-            Drawn::Constant(lifetime) => *lifetime,
-            Drawn::Formula(formula) => {
+            SampledNumber::Constant(lifetime) => *lifetime,
+            SampledNumber::Formula(formula) => {
                 let too_short = |life: f64| (life <= 0.0).then(|| format!("a life of {life:.3} s"));
                 self.each_draw(&emitter::LIFETIME.spec, formula, births, too_short)
             }
@@ -246,7 +246,7 @@ impl Reader<'_, '_> {
     fn each_draw(
         &mut self,
         key: &KeySpec,
-        formula: &DrawnFormula,
+        formula: &SampledFormula,
         births: &Births,
         wrong: impl Fn(f64) -> Option<String>,
     ) -> f64 {

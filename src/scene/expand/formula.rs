@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::{Expander, corrections, repeat};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::RunMeasure;
-use crate::scene::drawn::DrawnFormula;
 use crate::scene::expression::Formula;
+use crate::scene::sampled_number::SampledFormula;
 use crate::scene::source::{Node, Value};
 use crate::scene::timed::TimeFormula;
 
@@ -117,8 +117,8 @@ impl Expander<'_> {
         }
         let program = resolved.compile().map_err(|error| vec![error]);
         let program = self.ok_or_report(program, &text, span);
-        let drawn = program.map(|program| Arc::new(DrawnFormula::new(text, program)));
-        node.value = drawn.map_or(Value::Invalid, Value::Drawn);
+        let drawn = program.map(|program| Arc::new(SampledFormula::new(text, program)));
+        node.value = drawn.map_or(Value::Invalid, Value::Sampled);
     }
 
     /// Replaces a formula by its value, as [`Expander::number`] does, and reports an error if that value is not a whole number.

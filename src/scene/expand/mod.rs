@@ -186,7 +186,7 @@ impl Expander<'_> {
             (Kind::Number(_), Value::String(_)) => self.number(node),
             (Kind::Timed(_), Value::String(_)) => self.timed(node),
             (Kind::Varying(_), Value::String(_)) => self.varying(node),
-            (Kind::Drawn(_), Value::String(_)) => self.drawn_later(node),
+            (Kind::Sampled(_), Value::String(_)) => self.drawn_later(node),
             (Kind::OfBody(names), Value::String(_)) => self.of_body(node, names),
             (Kind::ListOfBody(_, names), Value::Array(_)) => {
                 self.items(node, |this, item| this.of_body(item, names));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{Expander, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::expression::Formula;
-use crate::scene::law::BodyFormula;
+use crate::scene::force_formula::BodyFormula;
 use crate::scene::source::{Node, Value};
 
 impl Expander<'_> {

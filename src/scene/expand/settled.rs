@@ -23,7 +23,7 @@ pub(super) fn is_settled(node: &Node, kind: &Kind) -> bool {
             Kind::Number(_)
             | Kind::Timed(_)
             | Kind::Varying(_)
-            | Kind::Drawn(_)
+            | Kind::Sampled(_)
             | Kind::OfBody(_)
             | Kind::Integer(..),
             Value::String(_),

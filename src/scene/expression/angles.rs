@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Formula;
-use super::parser::Part;
+use super::parser::Subexpression;
 
 /// The functions that return an angle in radians.
 const GIVES_RADIANS: [&str; 5] = ["asin", "acos", "atan", "atan2", "rad"];
@@ -16,12 +16,12 @@ impl Formula {
         value: impl Fn(&str) -> Option<f64>,
     ) -> Option<Range<usize>> {
         self.nodes.iter().find_map(|node| {
-            let Part::Call(function, arguments) = &node.part else { return None };
+            let Subexpression::Call(function, arguments) = &node.part else { return None };
             let [argument] = **arguments else { return None };
             let argument = &self.nodes[argument];
             let angle = match &argument.part {
-                Part::Number(number) => *number,
-                Part::Name(range) => value(&self.text()[range.clone()])?,
+                Subexpression::Number(number) => *number,
+                Subexpression::Name(range) => value(&self.text()[range.clone()])?,
                 _ => return None,
             };
             // Multiples of 5 from 15 to 720 are common angles in degrees, and unlikely angles in radians.
@@ -36,7 +36,7 @@ impl Formula {
         let calls = |names: &[&str]| {
             self.nodes
                 .iter()
-                .any(|node| matches!(&node.part, Part::Call(function, _) if names.contains(&function.name)))
+                .any(|node| matches!(&node.part, Subexpression::Call(function, _) if names.contains(&function.name)))
         };
         // The `pi` in `sin(2*pi*t)` belongs to the argument of the sine. It says nothing about the unit of the result.
         let has_sine = calls(&["sin", "cos", "tan", "sinh", "cosh", "tanh"]);

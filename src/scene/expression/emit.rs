@@ -20,7 +20,7 @@ impl Resolved {
     /// # Errors
     /// If the formula is nested too deeply.
     pub fn code(&self) -> Result<Code, ExpressionError> {
-        let mut emitter = Emitter {
+        let mut emitter = ProgramWriter {
             needs: needs(self),
             resolved: self,
             code: Vec::new(),
@@ -68,7 +68,7 @@ enum Leaf {
     C(f64),
 }
 
-struct Emitter<'a> {
+struct ProgramWriter<'a> {
     /// The number of stack entries that the code of each subexpression needs, by id.
     needs: Vec<usize>,
     resolved: &'a Resolved,
@@ -99,7 +99,7 @@ fn needs(resolved: &Resolved) -> Vec<usize> {
     needs
 }
 
-impl Emitter<'_> {
+impl ProgramWriter<'_> {
     #[allow(clippy::cast_possible_truncation, reason = "a formula is at most ten thousand bytes long")]
     fn take(&mut self, task: Task) {
         match task {

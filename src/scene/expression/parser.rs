@@ -30,13 +30,13 @@ pub(super) type Id = usize;
 /// A subexpression of a formula, with its byte range in the text.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
-    pub(super) part: Part,
+    pub(super) part: Subexpression,
     pub(super) range: Range<usize>,
 }
 
 /// A subexpression of a parsed formula.
 #[derive(Clone, Debug)]
-pub(super) enum Part {
+pub(super) enum Subexpression {
     Number(f64),
     /// The byte range of a name in the text. The range excludes parentheses around the name.
     Name(Range<usize>),
@@ -79,7 +79,7 @@ impl Formula {
     /// returned several times. Functions are not included.
     pub fn names(&self) -> impl Iterator<Item = (&str, Range<usize>)> {
         self.nodes.iter().filter_map(|node| match &node.part {
-            Part::Name(range) => Some((&self.text[range.clone()], range.clone())),
+            Subexpression::Name(range) => Some((&self.text[range.clone()], range.clone())),
             _ => None,
         })
     }
@@ -145,7 +145,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    fn push(&mut self, part: Part, range: Range<usize>) -> Id {
+    fn push(&mut self, part: Subexpression, range: Range<usize>) -> Id {
         self.nodes.push(Node { part, range });
         self.nodes.len() - 1
     }
@@ -200,9 +200,9 @@ impl<'a> Parser<'a> {
             self.advance()?;
         }
         match token {
-            Token::Number(number) => Ok(self.push(Part::Number(number), range)),
+            Token::Number(number) => Ok(self.push(Subexpression::Number(number), range)),
             Token::Name if self.token == Token::Open => self.call(range),
-            Token::Name => Ok(self.push(Part::Name(range.clone()), range)),
+            Token::Name => Ok(self.push(Subexpression::Name(range.clone()), range)),
             Token::Open => {
                 let inner = self.expression(0)?;
                 self.close(&range, "")?;
@@ -218,8 +218,8 @@ impl<'a> Parser<'a> {
                 })?;
                 let range = range.start..self.nodes[inner].range.end;
                 Ok(match token {
-                    Token::Minus => self.push(Part::Unary(Unary::Negate, inner), range),
-                    Token::Not => self.push(Part::Unary(Unary::Not, inner), range),
+                    Token::Minus => self.push(Subexpression::Unary(Unary::Negate, inner), range),
+                    Token::Not => self.push(Subexpression::Unary(Unary::Not, inner), range),
                     _ => inner,
                 })
             }
@@ -284,20 +284,20 @@ impl<'a> Parser<'a> {
         let range = name.start..self.before.end;
         let Some(function) = Function::named(word) else {
             self.errors.push(unknown_function(word, name));
-            return Ok(self.push(Part::Number(0.0), range));
+            return Ok(self.push(Subexpression::Number(0.0), range));
         };
         if !function.takes(values.len()) {
             self.errors.push(wrong_count(function, values.len(), range.clone()));
-            return Ok(self.push(Part::Number(0.0), range));
+            return Ok(self.push(Subexpression::Number(0.0), range));
         }
-        Ok(self.push(Part::Call(function, values.into()), range))
+        Ok(self.push(Subexpression::Call(function, values.into()), range))
     }
 }
 
-fn combine(operator: Token, left: Id, right: Id) -> Part {
+fn combine(operator: Token, left: Id, right: Id) -> Subexpression {
     let operation = match operator {
-        Token::Or => return Part::Or(left, right),
-        Token::And => return Part::And(left, right),
+        Token::Or => return Subexpression::Or(left, right),
+        Token::And => return Subexpression::And(left, right),
         Token::Less => Binary::Less,
         Token::LessEqual => Binary::LessEqual,
         Token::Greater => Binary::Greater,
@@ -311,7 +311,7 @@ fn combine(operator: Token, left: Id, right: Id) -> Part {
         Token::Caret => Binary::Power,
         _ => Binary::Add,
     };
-    Part::Binary(operation, left, right)
+    Subexpression::Binary(operation, left, right)
 }
 
 fn unknown_function(word: &str, name: Range<usize>) -> ExpressionError {

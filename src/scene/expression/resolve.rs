@@ -7,7 +7,7 @@ use super::error::{ExpressionError, error};
 use super::fold::Builder;
 use super::function::{Function, Work};
 use super::operation::{Binary, Ternary, Unary};
-use super::parser::{Formula, Id, Part};
+use super::parser::{Formula, Id, Subexpression};
 use super::scope::{Binding, Scope};
 use crate::scene::units;
 
@@ -149,22 +149,22 @@ struct Resolver<'a> {
 
 impl Resolver<'_> {
     /// Resolves a subexpression and returns its new id. `ids` are the new ids of the subexpressions before it.
-    fn node(&mut self, text: &str, part: &Part, range: &Range<usize>, ids: &[Id]) -> Id {
+    fn node(&mut self, text: &str, part: &Subexpression, range: &Range<usize>, ids: &[Id]) -> Id {
         let here = range.clone();
         match part {
-            Part::Number(number) => self.builder.constant(*number, here),
-            Part::Name(name) => self.name(&text[name.clone()], here),
-            Part::Unary(operation, a) => self.builder.unary(*operation, ids[*a], here),
-            Part::Binary(operation, a, b) => self.builder.binary(*operation, ids[*a], ids[*b], here),
-            Part::And(a, b) => {
+            Subexpression::Number(number) => self.builder.constant(*number, here),
+            Subexpression::Name(name) => self.name(&text[name.clone()], here),
+            Subexpression::Unary(operation, a) => self.builder.unary(*operation, ids[*a], here),
+            Subexpression::Binary(operation, a, b) => self.builder.binary(*operation, ids[*a], ids[*b], here),
+            Subexpression::And(a, b) => {
                 let (b, no) = (self.truth(ids[*b], range), self.builder.constant(0.0, here.clone()));
                 self.builder.choice(ids[*a], b, no, here)
             }
-            Part::Or(a, b) => {
+            Subexpression::Or(a, b) => {
                 let (b, yes) = (self.truth(ids[*b], range), self.builder.constant(1.0, here.clone()));
                 self.builder.choice(ids[*a], yes, b, here)
             }
-            Part::Call(function, values) => {
+            Subexpression::Call(function, values) => {
                 let values: Vec<Id> = values.iter().map(|value| ids[*value]).collect();
                 self.call(function, &values, range)
             }

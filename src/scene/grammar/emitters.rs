@@ -1,6 +1,6 @@
 //! The grammar of `[emitter.NAME]`, which describes a source of particles.
 
-use super::Kind::{Boolean, Colors, Drawn, Integer, List, Number, Numbers, Reference, Table};
+use super::Kind::{Boolean, Colors, Integer, List, Number, Numbers, Reference, Sampled, Table};
 use super::contact::{FRICTION, RESTITUTION};
 use super::key::table;
 use super::kind::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
@@ -33,7 +33,7 @@ table! {
         .unit("s")
         .default("the end of the run")
         .also(&["stop", "until", "t1"]),
-    LIFETIME: Option<value::Drawn> = KeySpec::new("lifetime", Drawn(Bound::Positive), "How long each exists")
+    LIFETIME: Option<value::Sampled> = KeySpec::new("lifetime", Sampled(Bound::Positive), "How long each exists")
         .unit("s")
         .default("it stays")
         .also(&["life", "duration", "age", "lives"]),
@@ -50,9 +50,9 @@ table! {
     .unit("degrees")
     .default_number(0.0)
     .also(&["cone", "cone_angle", "spread_angle"]),
-    SPEED: value::Drawn = KeySpec::new(
+    SPEED: value::Sampled = KeySpec::new(
         "speed",
-        Drawn(Bound::Any),
+        Sampled(Bound::Any),
         "Their initial speed; the velocity of the emitting body is added",
     )
     .unit("m/s")

@@ -1,7 +1,7 @@
 //! The grammar of `[force.NAME]`.
 
 use crate::physics::{Coulomb, Dipoles, Gravitation};
-use crate::scene::law::{OF_PLACE, QUANTITIES};
+use crate::scene::force_formula::{OF_PLACE, QUANTITIES};
 
 use super::Kind::{Boolean, Color, Either, List, ListOfBody, Number, OfBody, Reference, Table};
 use super::key::table;

@@ -20,7 +20,7 @@ pub enum Kind {
     /// A number within a bound, or a formula of the time `t` and of measures, such as `ball.x`.
     Varying(Bound),
     /// A number within a bound, or a formula with random numbers. Each particle evaluates the formula with its own random numbers.
-    Drawn(Bound),
+    Sampled(Bound),
     /// A list of a fixed length. Each item is a number within a bound, or a formula of the time `t`.
     TimedNumbers(usize, Bound),
     /// A list of a fixed length. Each item is a number within a bound, or a formula of the time `t` and of measures.
@@ -196,8 +196,8 @@ impl Kind {
             Kind::Timed(_) | Kind::Varying(_) => {
                 matches!(value, Value::Integer(_) | Value::Float(_) | Value::String(_) | Value::Formula(_))
             }
-            Kind::Drawn(_) => {
-                matches!(value, Value::Integer(_) | Value::Float(_) | Value::String(_) | Value::Drawn(_))
+            Kind::Sampled(_) => {
+                matches!(value, Value::Integer(_) | Value::Float(_) | Value::String(_) | Value::Sampled(_))
             }
             Kind::OfBody(_) => {
                 matches!(value, Value::Integer(_) | Value::Float(_) | Value::String(_) | Value::OfBody(_))
@@ -235,7 +235,7 @@ impl Kind {
             Kind::Varying(bound) => {
                 format!("a number{} or a formula of `t` and of measures", bound.in_words())
             }
-            Kind::Drawn(bound) => format!("a number{} or a formula", bound.in_words()),
+            Kind::Sampled(bound) => format!("a number{} or a formula", bound.in_words()),
             Kind::OfBody(names) => format!("a number or a formula of {}", quoted(names)),
             Kind::ListOfBody(count, names) => {
                 format!("a list of {count} numbers or formulas of {}", quoted(names))

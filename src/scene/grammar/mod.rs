@@ -197,9 +197,10 @@ mod tests {
             let admits = |bound: &Bound| default.number().is_some_and(|number| bound.admits(number));
             match (kind, default) {
                 (_, DefaultValue::Nothing | DefaultValue::Words(_)) => true,
-                (Kind::Number(bound) | Kind::Timed(bound) | Kind::Varying(bound) | Kind::Drawn(bound), _) => {
-                    admits(bound)
-                }
+                (
+                    Kind::Number(bound) | Kind::Timed(bound) | Kind::Varying(bound) | Kind::Sampled(bound),
+                    _,
+                ) => admits(bound),
                 (Kind::Integer(low, high), _) => {
                     default.integer().is_some_and(|number| (*low..=*high).contains(&number))
                 }

@@ -127,7 +127,7 @@ fn kind(kind: &Kind, whole: RequireKeys) -> Map<String, Value> {
         Kind::Integer(low, high) => {
             object(json!({ "type": ["integer", "string"], "minimum": low, "maximum": high }))
         }
-        Kind::Timed(bound) | Kind::Varying(bound) | Kind::Drawn(bound) => number(*bound),
+        Kind::Timed(bound) | Kind::Varying(bound) | Kind::Sampled(bound) => number(*bound),
         Kind::Numbers(count, bound)
         | Kind::TimedNumbers(count, bound)
         | Kind::VaryingNumbers(count, bound) => list(number(*bound), *count, *count),

@@ -27,11 +27,11 @@ pub(super) struct Lines<'a> {
 }
 
 /// A function that changes a line before the parser reads it.
-type Rewrite<'a> = dyn FnMut(&mut Vec<u8>, Place) + 'a;
+type Rewrite<'a> = dyn FnMut(&mut Vec<u8>, LinePosition) + 'a;
 
 /// The position of a line in the file, for the function that rewrites lines.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Place {
+pub(super) enum LinePosition {
     /// The number of a line in the file, counted from 1.
     Line(usize),
     /// The position after the last line, where a line can be added.
@@ -41,7 +41,7 @@ pub(super) enum Place {
 impl<'a> Lines<'a> {
     /// Makes a reader of the lines of a file. `rewrite` receives each line without its line break and may change it. It is called once
     /// more after the last line, to add a line.
-    pub(super) fn new(file: File, rewrite: impl FnMut(&mut Vec<u8>, Place) + 'a) -> Lines<'a> {
+    pub(super) fn new(file: File, rewrite: impl FnMut(&mut Vec<u8>, LinePosition) + 'a) -> Lines<'a> {
         let file = BufReader::new(file);
         let rewrite = Box::new(rewrite);
         let line = Vec::new();
@@ -81,7 +81,10 @@ impl<'a> Lines<'a> {
             self.line.push(b' ');
         }
         self.number = self.number.min(self.read);
-        (self.rewrite)(&mut self.line, if self.ended { Place::End } else { Place::Line(self.number) });
+        (self.rewrite)(
+            &mut self.line,
+            if self.ended { LinePosition::End } else { LinePosition::Line(self.number) },
+        );
         if !self.ended || !self.line.is_empty() {
             self.line.push(b'\n');
         }

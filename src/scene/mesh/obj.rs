@@ -6,7 +6,7 @@ use std::fs::File;
 use glam::DVec3;
 use tobj::{LoadError, LoadOptions};
 
-use super::lines::{Lines, Place};
+use super::lines::{LinePosition, Lines};
 use super::{MeshError, Triangles};
 
 /// Reads the vertices and triangles of an OBJ file. Splits polygons into fans of triangles, and ignores points and lines.
@@ -31,7 +31,7 @@ pub(super) fn read(file: File) -> Result<Triangles, MeshError> {
 
 /// Rewrites a line of an OBJ file: keeps vertices, faces and the vertex indices of faces, and empties all other lines. Errors in textures,
 /// normals, names and materials do not matter for the shape.
-fn only_geometry(line: &mut Vec<u8>, _: Place) {
+fn only_geometry(line: &mut Vec<u8>, _: LinePosition) {
     let start = line.len() - line.trim_ascii_start().len();
     line.drain(..start);
     if let Some(comment) = line.iter().position(|&byte| byte == b'#') {

@@ -6,7 +6,7 @@ use std::io::{self, Read, Seek, SeekFrom};
 use glam::DVec3;
 use stl_io::create_stl_reader;
 
-use super::lines::{BYTE_ORDER_MARK, Lines, Place};
+use super::lines::{BYTE_ORDER_MARK, LinePosition, Lines};
 use super::{MeshError, Triangles};
 
 /// The size of the header of a binary STL file, in bytes. Its last four bytes are the number of triangles.
@@ -54,8 +54,8 @@ fn triangles<R: Read + Seek>(file: &mut R) -> Result<Triangles, MeshError> {
 
 /// Rewrites a line of a text STL file for the crate `stl_io`: converts it to lower case, adds a name after the first `solid`, and joins
 /// several solids into one, because the crate stops after the first. `closed` holds true if the last nonblank line so far was `endsolid`.
-fn as_expected(line: &mut Vec<u8>, place: Place, closed: &mut bool) {
-    if place == Place::End {
+fn as_expected(line: &mut Vec<u8>, place: LinePosition, closed: &mut bool) {
+    if place == LinePosition::End {
         // A truncated file lacks its final `endsolid`. It stays missing, so that the crate reports an error.
         line.extend_from_slice(if *closed { b"endsolid" } else { b"" });
         return;
@@ -69,7 +69,7 @@ fn as_expected(line: &mut Vec<u8>, place: Place, closed: &mut bool) {
     if opens || closes {
         line.clear();
     }
-    if place == Place::Line(1) {
+    if place == LinePosition::Line(1) {
         // The first line always becomes the header, because blank lines may precede the word `solid`.
         line.splice(.., *b"solid x");
     }

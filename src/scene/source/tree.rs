@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::{CopiedTable, Shared};
 use crate::diagnostic::Span;
-use crate::scene::drawn::DrawnFormula;
-use crate::scene::law::BodyFormula;
+use crate::scene::force_formula::BodyFormula;
+use crate::scene::sampled_number::SampledFormula;
 use crate::scene::timed::TimeFormula;
 
 /// A value with its position in the text.
@@ -30,7 +30,7 @@ pub enum Value {
     /// A parsed formula of the time `t`. It replaces a string.
     Formula(Arc<TimeFormula>),
     /// A parsed formula that each particle evaluates with its own random numbers. It replaces a string.
-    Drawn(Arc<DrawnFormula>),
+    Sampled(Arc<SampledFormula>),
     /// A parsed formula of quantities of a body, such as its velocity. It replaces a string.
     OfBody(Arc<BodyFormula>),
     /// A Boolean value, `true` or `false`.
@@ -145,7 +145,7 @@ impl Node {
         match &self.value {
             Value::String(_) => "a string",
             Value::Integer(_) | Value::Float(_) => "a number",
-            Value::Formula(_) | Value::Drawn(_) | Value::OfBody(_) => "a formula",
+            Value::Formula(_) | Value::Sampled(_) | Value::OfBody(_) => "a formula",
             Value::Boolean(_) => "a boolean",
             Value::Datetime => "a date or time",
             Value::Array(_) => "a list",

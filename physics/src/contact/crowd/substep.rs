@@ -5,9 +5,9 @@ use glam::DVec3;
 use super::super::super::energy::mechanical;
 use super::super::super::integrator::drift_body;
 use super::super::super::{Loads, Model, State};
+use super::super::impacts::kinetic;
 use super::super::lasting_contact::LastingContact;
 use super::super::laws::LawResidual;
-use super::super::strike::kinetic;
 use super::Crowd;
 use super::impulses::{Impulses, Jointed};
 

@@ -13,7 +13,7 @@ use glam::DVec3;
 use super::super::super::{BodyId, Breakdown, Impact, Loads, Model, State};
 use super::super::approach::close;
 use super::super::closest_points::nearest;
-use super::super::collider::{Collider, Scale};
+use super::super::collider::{Collider, ContactScale};
 use super::super::lasting_contact::{LastingContact, spoke};
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
@@ -436,7 +436,7 @@ impl Collider {
             return PUSHING_CONTACT_TOLERANCE * self.size(bodies);
         }
         let [Some(x), Some(y)] = bodies.map(|body| self.solids[body].as_ref()) else { return 0.0 };
-        Scale::of(bodies, [x, y], (model, state)).tolerance(CONTACT_TOLERANCE)
+        ContactScale::of(bodies, [x, y], (model, state)).tolerance(CONTACT_TOLERANCE)
     }
 }
 

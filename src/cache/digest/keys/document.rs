@@ -31,7 +31,7 @@ pub(super) enum Step {
 pub(super) type Id = (&'static str, &'static str);
 
 /// A key in a scene file, with its value.
-pub(super) struct Place<'a> {
+pub(super) struct KeyInFile<'a> {
     pub(super) document: &'a Document,
     pub(super) key: &'static KeySpec,
     pub(super) node: &'a Node,
@@ -53,7 +53,7 @@ impl Document {
     }
 
     /// Returns all keys in the scene file that the grammar knows, with their values.
-    pub(super) fn places(&self) -> Vec<Place<'_>> {
+    pub(super) fn places(&self) -> Vec<KeyInFile<'_>> {
         let mut places = Vec::new();
         self.add_table(&SCENE, &self.root, &[], &[], &mut places);
         places
@@ -65,13 +65,13 @@ impl Document {
         table: &'a Table,
         way: &[Step],
         ids: &[Id],
-        places: &mut Vec<Place<'a>>,
+        places: &mut Vec<KeyInFile<'a>>,
     ) {
         for Entry { name, node } in &table.entries {
             let Some(key) = spec.key(&name.text) else { continue };
             let way = [way, &[Step::Key(Arc::clone(&name.text))]].concat();
             let ids = [ids, &[(spec.noun, key.name)]].concat();
-            places.push(Place { document: self, key, node, way: way.clone(), ids: ids.clone() });
+            places.push(KeyInFile { document: self, key, node, way: way.clone(), ids: ids.clone() });
             self.add_inside(&key.kind, node, &way, &ids, places);
         }
     }
@@ -82,7 +82,7 @@ impl Document {
         node: &'a Node,
         way: &[Step],
         ids: &[Id],
-        places: &mut Vec<Place<'a>>,
+        places: &mut Vec<KeyInFile<'a>>,
     ) {
         match (kind, &node.value) {
             (Kind::Table(spec) | Kind::Partial(spec), Value::Table(table)) => {
@@ -110,7 +110,7 @@ impl Document {
 }
 
 /// Displays the key and its path in the file.
-impl fmt::Display for Place<'_> {
+impl fmt::Display for KeyInFile<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (noun, name) = self.id();
         let way = self.way.iter().map(|step| match step {
@@ -122,7 +122,7 @@ impl fmt::Display for Place<'_> {
     }
 }
 
-impl Place<'_> {
+impl KeyInFile<'_> {
     pub(super) fn id(&self) -> Id {
         *self.ids.last().unwrap()
     }

@@ -2,12 +2,12 @@
 
 use std::fs;
 
-use super::document::{Document, Place, Step, written};
+use super::document::{Document, KeyInFile, Step, written};
 use crate::scene::grammar::{Bound, Collection, Kind};
 use crate::scene::source::{Node, Value};
 
 /// Returns other values for a key, as TOML. Some may be invalid. `None` means to remove the key.
-pub(super) fn others(place: &Place<'_>) -> Vec<Option<String>> {
+pub(super) fn others(place: &KeyInFile<'_>) -> Vec<Option<String>> {
     let own = written(place.node, None);
     let mut others = of_kind(&place.key.kind, place.node, place.document);
     others.retain(|other| *other != own);
@@ -30,7 +30,7 @@ fn of_kind(kind: &Kind, node: &Node, document: &Document) -> Vec<String> {
         Kind::Boolean => vec!["true".to_owned(), "false".to_owned()],
         Kind::Color | Kind::Colors => vec![quoted("#123456")],
         Kind::Choice(words) => words().into_iter().map(quoted).collect(),
-        Kind::Number(bound) | Kind::Timed(bound) | Kind::Varying(bound) | Kind::Drawn(bound) => {
+        Kind::Number(bound) | Kind::Timed(bound) | Kind::Varying(bound) | Kind::Sampled(bound) => {
             numbers(*bound, node)
         }
         Kind::OfBody(_) => numbers(Bound::Any, node),

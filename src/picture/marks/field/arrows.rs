@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{FieldMark, Scale, Sketch, Source};
+use super::{FieldMark, FrameView, Sketch, Source};
 use crate::picture::marks::HELPING_LINE_RADIUS;
 use crate::picture::thing::{Form, Line, Thing};
 use crate::simulate::FieldSampler;
@@ -37,7 +37,7 @@ impl FieldMark {
         &'a self,
         sampler: &mut FieldSampler,
         sources: &[Source],
-        scale: &Scale<'_>,
+        scale: &FrameView<'_>,
         sketch: &mut Sketch<'a>,
     ) {
         let spacing = self.spacing();
@@ -69,7 +69,7 @@ impl FieldMark {
     }
 
     /// A circle with a dot for an arrow towards the camera, or with a cross for one away from it.
-    fn sign(&self, point: DVec3, is_towards: bool, size: f64, scale: &Scale<'_>) -> Vec<Thing<'_>> {
+    fn sign(&self, point: DVec3, is_towards: bool, size: f64, scale: &FrameView<'_>) -> Vec<Thing<'_>> {
         const CORNERS: u32 = 20;
         let (right, up) = (scale.screen.right(), scale.screen.up());
         let (radius, thick) = (SIGN_RADIUS * size, HELPING_LINE_RADIUS * scale.stroke);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::{FieldMark, LINE_RADIUS, Region, Scale, Sketch, Source};
+use super::{FieldMark, FrameView, LINE_RADIUS, Region, Sketch, Source};
 use crate::picture::thing::Line;
 use crate::simulate::FieldSampler;
 
@@ -38,7 +38,7 @@ impl FieldMark {
         &'a self,
         sampler: &mut FieldSampler,
         sources: &[Source],
-        scale: &Scale<'_>,
+        scale: &FrameView<'_>,
         sketch: &mut Sketch<'a>,
     ) {
         let radius = LINE_RADIUS * scale.stroke;

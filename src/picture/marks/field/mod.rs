@@ -11,7 +11,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use self::levels::Levels;
-use super::{Mark, Scale, Sketch};
+use super::{FrameView, Mark, Sketch};
 use crate::physics::BodySnapshot;
 use crate::picture::camera::Placed;
 use crate::picture::stage::Stage;
@@ -241,7 +241,7 @@ struct Source {
 }
 
 impl Mark for FieldMark {
-    fn draw<'a>(&'a self, scale: &Scale<'_>, sketch: &mut Sketch<'a>) {
+    fn draw<'a>(&'a self, scale: &FrameView<'_>, sketch: &mut Sketch<'a>) {
         let mut sampler = self.sampler.clone();
         sampler.follow(scale.frame.time, &scale.frame.bodies);
         let sources = self.sources(&scale.frame.bodies);

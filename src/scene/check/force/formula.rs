@@ -11,8 +11,8 @@ use crate::physics::BodyId;
 use crate::scene::ForceKind;
 use crate::scene::expand::in_string;
 use crate::scene::expression::ExpressionError;
+use crate::scene::force_formula::{BodyFormula, FormulaLaw, QUANTITIES, quantities};
 use crate::scene::grammar::forces::formula;
-use crate::scene::law::{BodyFormula, FormulaLaw, QUANTITIES, quantities};
 
 /// The maximum number of bodies for which a formula is evaluated in the initial state.
 const MAX_CHECKED_BODIES: usize = 1000;

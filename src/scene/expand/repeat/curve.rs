@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::Place;
+use super::CopyPose;
 use super::pattern::fraction;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::expand::Expander;
@@ -13,7 +13,7 @@ use crate::scene::view::View;
 
 /// The offsets and rotations of copies that are placed along a curve at equal arc lengths.
 pub(super) struct Curve {
-    places: Vec<Place>,
+    places: Vec<CopyPose>,
 }
 
 /// The shape of the curve along which copies are placed.
@@ -52,7 +52,7 @@ impl Expander<'_> {
         let place = |n: usize| {
             let u = parameter_at(&samples, length * fraction(n, last));
             let turn = if turned { along(path.tangent(u)) } else { DQuat::IDENTITY };
-            Place { offset: path.at(u), turn }
+            CopyPose { offset: path.at(u), turn }
         };
         Some(Curve { places: (0..count).map(place).collect() })
     }
@@ -122,14 +122,14 @@ impl Curve {
         self.places.len()
     }
 
-    pub(super) fn place(&self, n: usize) -> Place {
-        let Place { offset, turn } = self.places.get(n).unwrap_or(&UNMOVED_PLACE);
-        Place { offset: *offset, turn: *turn }
+    pub(super) fn place(&self, n: usize) -> CopyPose {
+        let CopyPose { offset, turn } = self.places.get(n).unwrap_or(&UNMOVED);
+        CopyPose { offset: *offset, turn: *turn }
     }
 }
 
 /// The place of a copy that is neither moved nor rotated.
-const UNMOVED_PLACE: Place = Place { offset: DVec3::ZERO, turn: DQuat::IDENTITY };
+const UNMOVED: CopyPose = CopyPose { offset: DVec3::ZERO, turn: DQuat::IDENTITY };
 
 /// A sample of the curve: the parameter `u`, and the arc length from the beginning of the curve to the point at `u`, m.
 struct Sample {

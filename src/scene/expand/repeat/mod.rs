@@ -45,7 +45,7 @@ pub(super) fn work_of_motion(formula: &TimeFormula) -> u64 {
 }
 
 /// The offset (m) and the rotation of a copy, relative to the location and orientation of its body.
-pub(super) struct Place {
+pub(super) struct CopyPose {
     offset: DVec3,
     turn: DQuat,
 }
@@ -228,8 +228,8 @@ impl Expander<'_> {
     }
 
     /// Moves a copy by the offset, and turns it by the rotation, that the pattern gives.
-    fn place(&mut self, copy: &mut Table, place: &Place, repeat: &Entry, spec: &'static TableSpec) {
-        let Place { offset, turn } = *place;
+    fn place(&mut self, copy: &mut Table, place: &CopyPose, repeat: &Entry, spec: &'static TableSpec) {
+        let CopyPose { offset, turn } = *place;
         let has_turned = turn != DQuat::IDENTITY;
         if has_turned && is_whole(copy, "orientation") {
             let turn = turn * self.geometer.of(copy, spec).orientation;

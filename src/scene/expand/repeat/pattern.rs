@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::Place;
+use super::CopyPose;
 use super::curve::Curve;
 use super::scatter::Scatter;
 use crate::diagnostic::{Code, Diagnostic};
@@ -127,8 +127,8 @@ impl Pattern {
 
     /// Returns the offset and rotation of the copy with these indices. Scattered copies get none, because [`Scatter::places`] places all
     /// of them together.
-    pub(super) fn place(&self, [i, j, k]: [usize; 3]) -> Place {
-        let here = |offset: DVec3| Place { offset, turn: DQuat::IDENTITY };
+    pub(super) fn place(&self, [i, j, k]: [usize; 3]) -> CopyPose {
+        let here = |offset: DVec3| CopyPose { offset, turn: DQuat::IDENTITY };
         match self {
             Pattern::Count(_) | Pattern::Scatter(_) => here(DVec3::ZERO),
             Pattern::Grid { spacing, .. } => {
@@ -143,7 +143,7 @@ impl Pattern {
                 let second = axis.cross(first);
                 let offset = *radius * (first * libm::cos(angle) + second * libm::sin(angle));
                 let turn = if *turned { DQuat::from_axis_angle(*axis, angle) } else { DQuat::IDENTITY };
-                Place { offset, turn }
+                CopyPose { offset, turn }
             }
             Pattern::Line { count, from, to } => here(from.lerp(*to, fraction(i, count.saturating_sub(1)))),
             Pattern::Curve(curve) => curve.place(i),

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use glam::{DQuat, DVec3};
 
-use super::Place;
+use super::CopyPose;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::random::Stream;
 use crate::scene::grammar::repeat::{cuboid, cylinder, scatter, sphere, volume};
@@ -70,7 +70,7 @@ impl Scatter {
         &self,
         sizes: &[Option<f64>],
         mut stream: impl FnMut(usize) -> Stream,
-    ) -> Result<Vec<Place>, Full> {
+    ) -> Result<Vec<CopyPose>, Full> {
         /// The maximum number of random places tried for each copy. Even when the volume is almost full of equal spheres, about one try in
         /// a hundred succeeds.
         const MAX_TRIES_PER_COPY: usize = 20_000;
@@ -97,7 +97,7 @@ impl Scatter {
             }
             let offset = free.ok_or(Full { placed, why: Why::Crowded })?;
             taken.add(offset, radius);
-            places.push(Place { offset, turn });
+            places.push(CopyPose { offset, turn });
         }
         Ok(places)
     }

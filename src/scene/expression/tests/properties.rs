@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use super::super::function::{FUNCTIONS, Function, Work};
 use super::super::operation::{Binary, Unary};
-use super::super::parser::{Formula, Part};
+use super::super::parser::{Formula, Subexpression};
 use super::super::wide::Wide;
 use super::super::{Constants, MAX_LANES, Program, Scope};
 use super::scope;
@@ -78,16 +78,16 @@ impl Tree {
         let of = |id: &usize| Tree::of(formula, *id);
         let two = |operator, a, b| Tree::Two(operator, Box::new([of(a), of(b)]));
         match &formula.nodes[id].part {
-            Part::Number(number) => Tree::Number(*number),
-            Part::Name(range) => {
+            Subexpression::Number(number) => Tree::Number(*number),
+            Subexpression::Name(range) => {
                 let name = &formula.text()[range.clone()];
                 Tree::Name(NAMES.iter().find(|other| **other == name).unwrap())
             }
-            Part::Unary(Unary::Not, a) => Tree::Not(Box::new(of(a))),
-            Part::Unary(_, a) => Tree::Sign(Box::new(of(a))),
-            Part::And(a, b) => two("and", a, b),
-            Part::Or(a, b) => two("or", a, b),
-            Part::Binary(operation, a, b) => {
+            Subexpression::Unary(Unary::Not, a) => Tree::Not(Box::new(of(a))),
+            Subexpression::Unary(_, a) => Tree::Sign(Box::new(of(a))),
+            Subexpression::And(a, b) => two("and", a, b),
+            Subexpression::Or(a, b) => two("or", a, b),
+            Subexpression::Binary(operation, a, b) => {
                 let operator = match operation {
                     Binary::Add => "+",
                     Binary::Subtract => "-",
@@ -104,7 +104,9 @@ impl Tree {
                 };
                 two(operator, a, b)
             }
-            Part::Call(function, values) => Tree::Call(function.name, values.iter().map(of).collect()),
+            Subexpression::Call(function, values) => {
+                Tree::Call(function.name, values.iter().map(of).collect())
+            }
         }
     }
 

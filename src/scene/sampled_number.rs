@@ -8,24 +8,24 @@ use crate::physics::random::Stream;
 
 /// A constant number, or a formula with random numbers that is sampled anew for each particle.
 #[derive(Clone, Debug)]
-pub enum Drawn {
+pub enum SampledNumber {
     /// A number that is the same for all particles.
     Constant(f64),
     /// A formula of the time and of random numbers.
-    Formula(Arc<DrawnFormula>),
+    Formula(Arc<SampledFormula>),
 }
 
 /// A formula of the time `t` with the random functions `uniform` and `normal`. Each evaluation draws new random numbers.
 #[derive(Debug)]
-pub struct DrawnFormula {
+pub struct SampledFormula {
     text: Arc<str>,
     program: Program,
 }
 
-impl DrawnFormula {
+impl SampledFormula {
     /// Creates a formula from its text and its program. Input 0 of the program is the time. The other inputs are the random numbers.
-    pub(super) fn new(text: Arc<str>, program: Program) -> DrawnFormula {
-        DrawnFormula { text, program }
+    pub(super) fn new(text: Arc<str>, program: Program) -> SampledFormula {
+        SampledFormula { text, program }
     }
 
     /// Returns the formula as written in the scene.
@@ -47,18 +47,18 @@ impl DrawnFormula {
     }
 }
 
-impl physics::Draw for DrawnFormula {
+impl physics::Draw for SampledFormula {
     fn draw(&self, t: f64, random: &mut Stream) -> f64 {
         self.program.eval(&self.inputs(t, random))
     }
 }
 
-impl Drawn {
+impl SampledNumber {
     /// Returns the number or formula as a shared trait object for the dynamics.
     pub fn shared(&self) -> Arc<dyn physics::Draw> {
         match self {
-            Drawn::Constant(number) => Arc::new(*number),
-            Drawn::Formula(formula) => formula.clone(),
+            SampledNumber::Constant(number) => Arc::new(*number),
+            SampledNumber::Formula(formula) => formula.clone(),
         }
     }
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::super::contact::LastingContact;
 use super::super::{ContactSnapshot, Loads, Model, State};
 use super::Law;
-use super::modes::Mode;
+use super::row_modes::Mode;
 use super::solver::Solver;
 use super::sweep::Purpose;
 

@@ -5,7 +5,7 @@ use crate::scene::{Body, GridPlane, Scene};
 
 /// The properties of a scene that affect the direction in which a camera without a given position looks.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Sight {
+pub(super) struct DirectionHints {
     /// True if the ground has numbers, which are read from above.
     pub(super) reads_ground: bool,
     /// Whether a coordinate plane with numbers is read along x, or else along z. `None` without such a plane.
@@ -14,13 +14,13 @@ pub(super) struct Sight {
     pub(super) on_ground: Option<f64>,
 }
 
-impl Sight {
+impl DirectionHints {
     /// Finds these properties of a scene.
-    pub(super) fn of(scene: &Scene) -> Sight {
+    pub(super) fn of(scene: &Scene) -> DirectionHints {
         let width = |body: &Body| Some(2.0 * half_width(body)?);
         let bodies = scene.bodies.iter().filter(|body| !body.start.fixed);
         let has_ground = scene.ground_that_stops().is_some() && !scene.output.transparent;
-        Sight {
+        DirectionHints {
             reads_ground: scene.grid.is_some_and(|grid| grid.plane.is_level()),
             along_x: match scene.grid.map(|grid| grid.plane) {
                 Some(GridPlane::Yz) => Some(true),

@@ -12,7 +12,7 @@ use super::solid::Pose;
 const DIFFERENTIATION_STEP: f64 = 1e-4;
 
 /// The rates at which the point and the normal of a contact change, for given velocities of the bodies.
-pub(super) struct Change {
+pub(super) struct ContactRates {
     /// The time derivative of the unit contact normal, 1/s.
     pub(super) normal: DVec3,
     /// The velocity of the contact point, m/s. The contact point moves over the surfaces; it is no material point of a body.
@@ -61,25 +61,25 @@ impl Rated {
     }
 }
 
-impl Change {
+impl ContactRates {
     /// Computes the rates of the contact between two patches. `size` is a typical length of the smaller body, m.
-    pub(super) fn of(patches: [&Patch; 2], members: [&Member; 2], size: f64) -> Change {
-        Change::exact(patches, members)
+    pub(super) fn of(patches: [&Patch; 2], members: [&Member; 2], size: f64) -> ContactRates {
+        ContactRates::exact(patches, members)
             .or_else(|| {
                 let [a, b] = patches;
-                let swapped = Change::exact([b, a], [members[1], members[0]])?;
-                Some(Change { normal: -swapped.normal, ..swapped })
+                let swapped = ContactRates::exact([b, a], [members[1], members[0]])?;
+                Some(ContactRates { normal: -swapped.normal, ..swapped })
             })
-            .unwrap_or_else(|| Change::numeric(patches, members, size))
+            .unwrap_or_else(|| ContactRates::numeric(patches, members, size))
     }
 
     /// Computes the rates in closed form. `None` if there is no formula for these two patches in this order.
-    fn exact([a, b]: [&Patch; 2], [first, second]: [&Member; 2]) -> Option<Change> {
+    fn exact([a, b]: [&Patch; 2], [first, second]: [&Member; 2]) -> Option<ContactRates> {
         match (a, b) {
             (Patch::Plane { normal, .. }, Patch::Point { at, radius }) => {
                 let normal = Rated::direction(first, *normal);
                 let centre = Rated::point(second, *at);
-                Some(Change { normal: normal.rate, place: centre.rate - *radius * normal.rate })
+                Some(ContactRates { normal: normal.rate, place: centre.rate - *radius * normal.rate })
             }
             (Patch::Plane { normal, .. }, Patch::Circle { centre, axis, radius }) => {
                 let normal = Rated::direction(first, *normal);
@@ -87,30 +87,30 @@ impl Change {
                 // The lowest point of the rim is opposite to the normal's component across the axis.
                 let up = normal.across(axis).normalized()?;
                 let centre = Rated::point(second, *centre);
-                Some(Change { normal: normal.rate, place: centre.rate - *radius * up.rate })
+                Some(ContactRates { normal: normal.rate, place: centre.rate - *radius * up.rate })
             }
             (Patch::Point { at: x, radius }, Patch::Point { at: y, .. }) => {
                 let centre = Rated::point(first, *x);
                 let normal = Rated::point(second, *y).minus(centre).normalized()?;
-                Some(Change { normal: normal.rate, place: centre.rate + *radius * normal.rate })
+                Some(ContactRates { normal: normal.rate, place: centre.rate + *radius * normal.rate })
             }
             (Patch::Line { at: x, along, .. }, Patch::Point { at: y, radius }) => {
                 let along = Rated::direction(first, *along);
                 let centre = Rated::point(second, *y);
                 let normal = centre.minus(Rated::point(first, *x)).across(along).normalized()?;
-                Some(Change { normal: normal.rate, place: centre.rate - *radius * normal.rate })
+                Some(ContactRates { normal: normal.rate, place: centre.rate - *radius * normal.rate })
             }
             _ => None,
         }
     }
 
     /// Computes the rates by central differences along the current motion of the bodies.
-    fn numeric([a, b]: [&Patch; 2], members: [&Member; 2], size: f64) -> Change {
+    fn numeric([a, b]: [&Patch; 2], members: [&Member; 2], size: f64) -> ContactRates {
         let fastest = members.iter().fold(0.0_f64, |most, member| {
             most.max(member.velocity.length() / size).max(member.angular_velocity.length())
         });
         if fastest == 0.0 {
-            return Change { normal: DVec3::ZERO, place: DVec3::ZERO };
+            return ContactRates { normal: DVec3::ZERO, place: DVec3::ZERO };
         }
         let step = DIFFERENTIATION_STEP / fastest;
         let moved = |time: f64| {
@@ -119,7 +119,7 @@ impl Change {
         };
         let (before, after) = (moved(-step), moved(step));
         let middle = |meeting: &ClosestPoints| 0.5 * (meeting.on[0] + meeting.on[1]);
-        Change {
+        ContactRates {
             normal: (after.normal - before.normal) / (2.0 * step),
             place: (middle(&after) - middle(&before)) / (2.0 * step),
         }

@@ -26,7 +26,7 @@ pub(super) struct Stage {
 /// Advances bodies on which no torque acts. Holds the working memory for a step. The results have the same bits as those of
 /// [`Slope`](super::runge_kutta::Slope) and [`follow`](super::runge_kutta::follow).
 #[derive(Clone, Default)]
-pub(super) struct Straight {
+pub(super) struct TorqueFree {
     stage: State,
     loads: Loads,
     /// The weighted sums of the slopes of all stages so far, for the bodies of a block.
@@ -35,7 +35,7 @@ pub(super) struct Straight {
     power: Accounts,
 }
 
-impl Straight {
+impl TorqueFree {
     /// Returns whether this type can advance a system: no force can rotate bodies, no motion is given, and no constraint is active.
     pub(super) fn suits(system: &System<'_>) -> bool {
         let model = system.model();

@@ -59,25 +59,25 @@ const MAX_IMPACTS_WITH_LOSSES: usize = 100;
 
 /// A contact point of an impact: the unit vectors of its normal and its two tangents, and its position.
 #[derive(Clone, Copy)]
-struct Place {
+struct ImpactPoint {
     axes: [DVec3; 3],
     /// The vectors from both centers of mass to the contact point, world axes, m.
     arms: [DVec3; 2],
 }
 
 /// The result of the impacts between touching bodies at one instant.
-pub(crate) struct Strike {
+pub(crate) struct StruckBodies {
     /// The contacts at which bodies may stay in touch.
     pub(crate) closed: Vec<Arc<LastingContact>>,
     /// The indices of the bodies that had an impact. A body may occur several times.
     pub(crate) struck: Vec<usize>,
 }
 
-impl Place {
-    fn of(meeting: &ClosestPoints, bodies: [usize; 2], state: &State) -> Place {
+impl ImpactPoint {
+    fn of(meeting: &ClosestPoints, bodies: [usize; 2], state: &State) -> ImpactPoint {
         let (u, w) = meeting.normal.any_orthonormal_pair();
         let arm = |i: usize| meeting.on[i] - state.location[bodies[i]];
-        Place { axes: [meeting.normal, u, w], arms: [arm(0), arm(1)] }
+        ImpactPoint { axes: [meeting.normal, u, w], arms: [arm(0), arm(1)] }
     }
 
     /// Computes the velocity of the second body relative to the first at the contact point, along the normal and the two tangents, m/s.
@@ -99,17 +99,17 @@ impl Collider {
         time: f64,
         state: &mut State,
         solver: &mut Solver,
-    ) -> Result<Strike, Breakdown> {
+    ) -> Result<StruckBodies, Breakdown> {
         // Bodies that start from rest have no closing speeds yet: their rounding errors are measured against what forces change in a step.
         self.fastest = self.fastest.max(solver.speed_by_loads());
         // A body held at rest and a body with a given motion that does not approach it have nothing to pass on to each other.
         let moves = |body: &usize| model.inverse_mass()[*body] != 0.0;
         let mut touching = self.touching(model, state);
         touching.retain(|pair| pair.bodies.iter().any(moves));
-        let places: Vec<Vec<Place>> = touching
+        let places: Vec<Vec<ImpactPoint>> = touching
             .iter()
             .map(|pair| {
-                pair.touches.iter().map(|touch| Place::of(&touch.meeting, pair.bodies, state)).collect()
+                pair.touches.iter().map(|touch| ImpactPoint::of(&touch.meeting, pair.bodies, state)).collect()
             })
             .collect();
         let jointed: Vec<bool> = touching
@@ -171,8 +171,9 @@ impl Collider {
             let still = NORMAL_SPEED_TOLERANCE * self.fastest * self.haste(pair);
             let near = pair.touches.iter().zip(places).filter(|(_, place)| place.rate(twists).x <= still);
             let near: Vec<&Touch> = near.map(|(touch, _)| touch).collect();
-            let is_still =
-                |touch: &&Touch| Place::of(&touch.meeting, pair.bodies, state).rate(twists).x.abs() <= still;
+            let is_still = |touch: &&Touch| {
+                ImpactPoint::of(&touch.meeting, pair.bodies, state).rate(twists).x.abs() <= still
+            };
             let snug = pair.snug.iter().filter(|_| !near.is_empty()).filter(is_still);
             for touch in near.iter().copied().chain(snug) {
                 let (bodies, law) = (pair.bodies, pair.law);
@@ -181,7 +182,7 @@ impl Collider {
                 closed.push(Arc::new(LastingContact { bodies, touch: *touch, law, size, still, spoke }));
             }
         }
-        Ok(Strike { closed, struck })
+        Ok(StruckBodies { closed, struck })
     }
 
     /// Returns the factor on the speed below which two bodies count as at rest. It grows with repeated impacts.
@@ -216,7 +217,7 @@ impl Collider {
     fn strike_pair(
         &mut self,
         pair: &Touching,
-        places: &[Place],
+        places: &[ImpactPoint],
         speed: f64,
         (model, time, state): (&Model, f64, &mut State),
         mut joints: Option<&mut Solver>,
@@ -327,23 +328,23 @@ fn bounces(restitution: f64) -> f64 {
 /// before the impact, and its impulse. `None` if the impact causes rotation, so that the points behave differently.
 fn middle(
     bodies: [usize; 2],
-    places: &[Place],
+    places: &[ImpactPoint],
     before: &[DVec3],
     bounce: Bounce,
     context: (&Model, &State),
     joints: Option<&mut Solver>,
-) -> Option<(Place, DVec3, DVec3)> {
+) -> Option<(ImpactPoint, DVec3, DVec3)> {
     let [first, .., _] = places else { return None };
     let rate = before[0];
     let speed = rate.length();
-    let is_same = |place: &Place| place.axes[0].dot(first.axes[0]) > 1.0 - 1e-14;
+    let is_same = |place: &ImpactPoint| place.axes[0].dot(first.axes[0]) > 1.0 - 1e-14;
     let is_alike = |other: &DVec3| (*other - rate).length() <= VELOCITY_TOLERANCE * speed;
     if !(places.iter().all(is_same) && before.iter().all(is_alike)) {
         return None;
     }
     let mean = |i: usize| places.iter().map(|place| place.arms[i]).sum::<DVec3>() / places.len() as f64;
-    let place = Place { arms: [mean(0), mean(1)], ..*first };
-    let all: Vec<Place> = std::iter::once(place).chain(places.iter().copied()).collect();
+    let place = ImpactPoint { arms: [mean(0), mean(1)], ..*first };
+    let all: Vec<ImpactPoint> = std::iter::once(place).chain(places.iter().copied()).collect();
     let n = 3 * all.len();
     let response = response_to(bodies, &all, 1, context, joints);
     let own: Vec<f64> = (0..9).map(|i| response[i / 3 * 3 + i % 3]).collect();
@@ -368,7 +369,7 @@ fn twist(body: usize, model: &Model, state: &State) -> Twist {
 /// Computes J M⁻¹ Jᵀ for some contact points, row by row, under the constraints of the joints.
 fn response(
     bodies: [usize; 2],
-    places: &[Place],
+    places: &[ImpactPoint],
     (model, state): (&Model, &State),
     joints: Option<&mut Solver>,
 ) -> Vec<f64> {
@@ -380,7 +381,7 @@ fn response(
 /// coupled to others: since their rates are 0, their impulses are 0, too.
 fn response_to(
     bodies: [usize; 2],
-    places: &[Place],
+    places: &[ImpactPoint],
     pushed: usize,
     (model, state): (&Model, &State),
     mut joints: Option<&mut Solver>,

@@ -1,12 +1,12 @@
-//! Finds strays: bodies that fly far away from most other bodies.
+//! Finds outliers: bodies that fly far away from most other bodies.
 
 use super::Bounds;
 
-/// The smallest number of moving bodies for which strays are searched.
+/// The smallest number of moving bodies for which outliers are searched.
 const MIN_MOVING_BODIES: usize = 8;
-/// The largest fraction of the moving bodies that may be strays.
+/// The largest fraction of the moving bodies that may be outliers.
 const MAX_STRAY_FRACTION: f64 = 1.0 / 3.0;
-/// The largest ratio of the run's size without strays to its size with strays. If the ratio is larger, no body counts as a stray.
+/// The largest ratio of the run's size without outliers to its size with outliers. If the ratio is larger, no body counts as a outlier.
 const MAX_SIZE_RATIO: f64 = 0.5;
 
 /// The space that each body takes during a run, by the index of the body.
@@ -25,9 +25,9 @@ pub(super) struct Path {
     seen: Bounds,
 }
 
-/// The space of a run without its strays. Of each stray, only its first frame is included.
+/// The space of a run without its outliers. Of each outlier, only its first frame is included.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct WithoutStrays {
+pub(super) struct WithoutOutliers {
     /// The box around all bodies.
     pub(super) bounds: Bounds,
     /// The box around the bodies that are not fixed.
@@ -52,16 +52,16 @@ impl Paths {
         self.0.iter().flatten().filter(|path| path.is_fixed).map(|path| path.seen)
     }
 
-    /// Finds the smallest number of strays without which the run is much smaller, and returns the space without them. `None` if there are
-    /// no strays.
-    pub(super) fn without_strays(&self) -> Option<WithoutStrays> {
+    /// Finds the smallest number of outliers without which the run is much smaller, and returns the space without them. `None` if there are
+    /// no outliers.
+    pub(super) fn without_outliers(&self) -> Option<WithoutOutliers> {
         let mut paths: Vec<Path> = self.0.iter().flatten().copied().collect();
         let moving = paths.iter().filter(|path| !path.is_fixed).count();
         if moving < MIN_MOVING_BODIES {
             return None;
         }
         let centre = middle_of_starts(&paths);
-        // Strays are the bodies that get farthest from the median of all starting points.
+        // Outliers are the bodies that get farthest from the median of all starting points.
         let reach = |path: &Path| {
             let farthest = (path.all.max - centre).abs().max((path.all.min - centre).abs());
             if path.is_fixed { 0.0 } else { farthest.length() }
@@ -76,16 +76,16 @@ impl Paths {
             rests[i] = rests[i + 1].with(path.is_fixed, path.all, path.seen);
         }
         let mut starts = Space::default();
-        (1..=most).find_map(|strays| {
-            let stray = paths.get(strays - 1)?;
-            starts = starts.with(stray.is_fixed, stray.start, stray.start);
-            let rest = starts.union(rests[strays]).whole()?;
+        (1..=most).find_map(|outliers| {
+            let outlier = paths.get(outliers - 1)?;
+            starts = starts.with(outlier.is_fixed, outlier.start, outlier.start);
+            let rest = starts.union(rests[outliers]).whole()?;
             (rest.bounds.diagonal() <= MAX_SIZE_RATIO * whole.diagonal()).then_some(rest)
         })
     }
 }
 
-/// The space of some bodies: as [`WithoutStrays`], with `None` for boxes around no bodies.
+/// The space of some bodies: as [`WithoutOutliers`], with `None` for boxes around no bodies.
 #[derive(Clone, Copy, Default)]
 struct Space {
     bounds: Option<Bounds>,
@@ -111,8 +111,8 @@ impl Space {
     }
 
     /// Returns the boxes, or `None` if one of them is around no body.
-    fn whole(self) -> Option<WithoutStrays> {
-        Some(WithoutStrays { bounds: self.bounds?, moving: self.moving?, seen: self.seen? })
+    fn whole(self) -> Option<WithoutOutliers> {
+        Some(WithoutOutliers { bounds: self.bounds?, moving: self.moving?, seen: self.seen? })
     }
 }
 
@@ -150,14 +150,14 @@ mod tests {
 
     #[test]
     fn one_of_ten_that_flies_away_counts_where_it_starts() {
-        let rest = row(10).without_strays().unwrap();
+        let rest = row(10).without_outliers().unwrap();
         assert_eq!(rest.bounds, Bounds { min: DVec3::splat(-0.5), max: DVec3::new(9.5, 0.5, 0.5) });
         assert_eq!((rest.moving, rest.seen), (rest.bounds, rest.bounds));
     }
 
     #[test]
     fn a_few_bodies_have_no_strays() {
-        assert_eq!(row(7).without_strays(), None);
+        assert_eq!(row(7).without_outliers(), None);
     }
 
     #[test]
@@ -166,10 +166,10 @@ mod tests {
         let far = cube(DVec3::new(0.0, 60.0, 0.0));
         for body in 0..2 {
             paths.see(body, false, far, far);
-            assert!(paths.without_strays().is_some(), "{body}");
+            assert!(paths.without_outliers().is_some(), "{body}");
         }
         paths.see(2, false, far, far);
-        assert_eq!(paths.without_strays(), None);
+        assert_eq!(paths.without_outliers(), None);
     }
 
     #[test]
@@ -181,6 +181,6 @@ mod tests {
         }
         let near = cube(DVec3::new(0.0, 12.0, 0.0));
         paths.see(5, false, near, near);
-        assert_eq!(paths.without_strays(), None);
+        assert_eq!(paths.without_outliers(), None);
     }
 }

@@ -4,9 +4,9 @@
 use std::sync::Arc;
 
 use super::camera::{MovingCamera, half_width};
+use super::direction_hints::DirectionHints;
 use super::followed::FollowedValues;
 use super::framing::{rounded_outward, towards_camera};
-use super::sight::Sight;
 use super::track::Track;
 use crate::scene::{Auto, Body, Camera, Projection, Quantity, Scene};
 use crate::simulate::{Bounds, Reach, Span, Survey};
@@ -32,19 +32,19 @@ const BOUNDS_OF_NOTHING: Bounds = Bounds { min: glam::DVec3::NEG_ONE, max: glam:
 
 /// The part of a run that a camera frames, with its bounds.
 #[derive(Clone, Debug)]
-pub(super) struct Scope {
+pub(super) struct FramedRun {
     /// The space of the framed part of the run.
     pub(super) span: Span,
     /// The box around the whole run, m.
     pub(super) whole: Bounds,
-    pub(super) part: Part,
+    pub(super) part: FramedPart,
     /// The track of a camera that goes along with the motion.
     pub(super) track: Option<Arc<Track>>,
 }
 
 /// The part of a run that a camera frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Part {
+pub enum FramedPart {
     /// The whole run, or the view that the scene gives.
     Whole,
     /// The start of the run up to this time, s.
@@ -53,9 +53,14 @@ pub enum Part {
     Along,
 }
 
-impl Scope {
+impl FramedRun {
     /// Chooses the part of a run that a camera of a scene frames.
-    pub(super) fn new(scene: &Scene, camera: &Camera, survey: &Survey, followed: &FollowedValues) -> Scope {
+    pub(super) fn new(
+        scene: &Scene,
+        camera: &Camera,
+        survey: &Survey,
+        followed: &FollowedValues,
+    ) -> FramedRun {
         let Some((all, starts)) = survey.spans.split_last() else {
             let arrows: [Reach; Quantity::SCALE_COUNT] = Default::default();
             let span = Span {
@@ -67,18 +72,19 @@ impl Scope {
                 shown: BOUNDS_OF_NOTHING,
                 arrows,
             };
-            return Scope { span, whole: BOUNDS_OF_NOTHING, part: Part::Whole, track: None };
+            return FramedRun { span, whole: BOUNDS_OF_NOTHING, part: FramedPart::Whole, track: None };
         };
         let whole = all.bounds;
-        let scope = |span: &Span, part: Part| Scope { span: span.clone(), whole, part, track: None };
+        let framed =
+            |span: &Span, part: FramedPart| FramedRun { span: span.clone(), whole, part, track: None };
         if camera.auto == Some(Auto::Whole) || !is_automatic(camera) {
-            return scope(all, Part::Whole);
+            return framed(all, FramedPart::Whole);
         }
         let all = &all.framed();
         let width = largest(scene).map_or(0.0, |largest| 2.0 * half_width(largest).unwrap_or(0.0));
         let eye = |span: &Span| {
             let bounds = rounded_outward(span.seen);
-            let towards = towards_camera(span.moving, Sight::of(scene));
+            let towards = towards_camera(span.moving, DirectionHints::of(scene));
             MovingCamera::new(camera, bounds, towards, scene, followed)
         };
         let seen = |span: &Span| width / eye(span).placed().width_of_view(span.bounds);
@@ -86,24 +92,24 @@ impl Scope {
             let placed = *eye(span).placed();
             let least = (width / MAX_WIDTH_ALONG).min(placed.width_of_view(span.bounds));
             let track = Arc::new(Track::new(&survey.course, &placed, least)?);
-            Some(Scope { track: Some(track), ..scope(span, Part::Along) })
+            Some(FramedRun { track: Some(track), ..framed(span, FramedPart::Along) })
         };
         if camera.auto == Some(Auto::Track) {
-            return along(all).unwrap_or(scope(all, Part::Whole));
+            return along(all).unwrap_or(framed(all, FramedPart::Whole));
         }
         // Without bodies, there are only particles.
         if width == 0.0 {
-            return scope(all, Part::Whole);
+            return framed(all, FramedPart::Whole);
         }
         // A trail makes even a tiny body visible, so with trails the whole run is framed.
         if scene.bodies.iter().any(|body| body.showing.trail.is_some()) {
-            return scope(all, Part::Whole);
+            return framed(all, FramedPart::Whole);
         }
-        // The camera ignores strays: a few bodies that fly far away from many others.
-        let all = &survey.without_strays.as_ref().map_or(all.clone(), Span::framed);
+        // The camera ignores outliers: a few bodies that fly far away from many others.
+        let all = &survey.without_outliers.as_ref().map_or(all.clone(), Span::framed);
         let in_whole = seen(all);
-        let is_closer = |scope: &Scope| {
-            let views = scope.track.as_ref().map(|track| track.views().map(|view| width / view / in_whole));
+        let is_closer = |framed: &FramedRun| {
+            let views = framed.track.as_ref().map(|track| track.views().map(|view| width / view / in_whole));
             views.is_some_and(|[best, usual]| {
                 usual > MIN_USUAL_GAIN || in_whole < MIN_VISIBLE_WIDTH && best > MIN_GAIN_AT_BEST
             })
@@ -116,15 +122,15 @@ impl Scope {
             return along;
         }
         if in_whole >= MIN_VISIBLE_WIDTH {
-            return scope(all, Part::Whole);
+            return framed(all, FramedPart::Whole);
         }
         let come = all_have_come(scene);
         let reaching = |least: f64| {
             starts.iter().rev().map(Span::framed).find(|span| span.until >= come && seen(span) >= least)
         };
         match reaching(PREFERRED_WIDTH_AT_START).or_else(|| reaching(MIN_VISIBLE_WIDTH)) {
-            Some(start) => scope(&start, Part::Start(start.until)),
-            None => scope(all, Part::Whole),
+            Some(start) => framed(&start, FramedPart::Start(start.until)),
+            None => framed(all, FramedPart::Whole),
         }
     }
 }
