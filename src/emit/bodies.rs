@@ -326,8 +326,10 @@ fn in_comment(body: &Body) -> Arc<str> {
 /// Returns the index of a text template in `forms`. Adds the template if it is not among the latest ones.
 fn number(form: TextTemplate, forms: &mut Vec<TextTemplate>) -> usize {
     /// The number of latest templates that the search compares.
-    const LATEST: usize = 16;
-    if let Some(known) = forms.iter().enumerate().rev().take(LATEST).find(|(_, known)| **known == form) {
+    const COMPARED_FORMS: usize = 16;
+    if let Some(known) =
+        forms.iter().enumerate().rev().take(COMPARED_FORMS).find(|(_, known)| **known == form)
+    {
         return known.0;
     }
     forms.push(form);

@@ -10,17 +10,17 @@ use crate::picture::{Placed, Plan, number};
 use crate::scene::{Camera, Scene};
 
 /// The relative resolution of single-precision numbers, 2⁻²⁴.
-const STEP: f64 = 1.0 / 16_777_216.0;
+const SINGLE_PRECISION: f64 = 1.0 / 16_777_216.0;
 
 /// The smallest length that is not treated as zero, POV-Ray units. The limit of POV-Ray's parser is 10⁻¹⁰.
-const NOTHING: f64 = 1e-8;
+const MIN_LENGTH: f64 = 1e-8;
 
 /// The smallest distance between a camera and the point that it looks at, POV-Ray units. POV-Ray compares the square of this distance with
 /// 10⁻¹⁰.
-const NEAREST: f64 = 2e-5;
+const MIN_CAMERA_DISTANCE: f64 = 2e-5;
 
 /// The smallest and the largest allowed coordinate range of a scene, POV-Ray units.
-const UNITS: [f64; 2] = [1e-3, 1e9];
+const ALLOWED_RANGE: [f64; 2] = [1e-3, 1e9];
 
 /// Checks that POV-Ray can distinguish the points that a camera of the scene sees. `unit` is the length of one POV-Ray unit, m.
 ///
@@ -50,7 +50,7 @@ pub(super) fn sees(camera: &Placed, unit: f64, digits: usize) -> bool {
         number::write(&mut text, number, digits);
         text
     };
-    from.distance(to) > NEAREST.max(STEP * farthest)
+    from.distance(to) > MIN_CAMERA_DISTANCE.max(SINGLE_PRECISION * farthest)
         && from.to_array().map(written) != to.to_array().map(written)
 }
 
@@ -66,7 +66,7 @@ fn indistinct(message: String, place: Option<Span>, label: &str) -> Diagnostic {
 fn unit_of(scene: &Scene, reach: &LargestCoordinate, unit: f64) -> Option<Diagnostic> {
     scene.povray.unit?;
     let units = reach.metres / unit;
-    if (UNITS[0]..UNITS[1]).contains(&units) {
+    if (ALLOWED_RANGE[0]..ALLOWED_RANGE[1]).contains(&units) {
         return None;
     }
     let message = format!("POV-Ray cannot draw a scene that is {units:.0e} of its units large");
@@ -83,8 +83,8 @@ fn body(scene: &Scene, reach: &LargestCoordinate, unit: f64) -> Option<Diagnosti
         let shape = body.drawn();
         let half = shape.half_thickness()?;
         let extent = shape.extent()?;
-        let is_point = 2.0 * extent < STEP * reach.metres;
-        (is_point || half / unit < NOTHING).then_some((id, if is_point { extent } else { half }, is_point))
+        let is_point = 2.0 * extent < SINGLE_PRECISION * reach.metres;
+        (is_point || half / unit < MIN_LENGTH).then_some((id, if is_point { extent } else { half }, is_point))
     });
     let (id, size, is_point) = too_small.min_by(|a, b| a.1.total_cmp(&b.1))?;
     let name = &scene.bodies[id].name;
@@ -115,8 +115,8 @@ fn sight(scene: &Scene, camera: &Camera, placed: &Placed, unit: f64) -> Option<D
     }
     let width = placed.width_at(distance);
     let screen = placed.screen().axes().map(|axis| axis.length() / unit);
-    let flat = screen.iter().any(|axis| *axis < NOTHING) && crate::picture::has_texts(scene);
-    if width / unit > 1e3 * NOTHING && !flat {
+    let flat = screen.iter().any(|axis| *axis < MIN_LENGTH) && crate::picture::has_texts(scene);
+    if width / unit > 1e3 * MIN_LENGTH && !flat {
         return None;
     }
     let message = "POV-Ray cannot tell what the camera sees from a point";

@@ -29,7 +29,7 @@ struct Known {
 }
 
 /// The number format of normal vectors. With six digits, the error of a normal is about a ten-thousandth of a degree.
-const NORMAL: Style = Style { unit: 1.0, digits: 6 };
+const NORMAL_STYLE: Style = Style { unit: 1.0, digits: 6 };
 
 impl Meshes {
     /// Collects the meshes that the scripts of a scene draw.
@@ -78,7 +78,9 @@ impl Meshes {
             };
             if let Some(smooth) = mesh.smooth() {
                 let normals = normals::of_corners(mesh, smooth);
-                list(out, "normal_vectors", &normals.vectors, |out, normal| NORMAL.vector(out, *normal));
+                list(out, "normal_vectors", &normals.vectors, |out, normal| {
+                    NORMAL_STYLE.vector(out, *normal);
+                });
                 list(out, "face_indices", mesh.triangles(), corners);
                 list(out, "normal_indices", &normals.corners, corners);
             } else {

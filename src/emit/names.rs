@@ -13,8 +13,8 @@ pub const ASSETS: &str = "assets";
 
 /// Returns the number of digits of the frame number in file names: at least 4.
 pub(crate) fn width(frames: usize) -> usize {
-    const LEAST: usize = 4;
-    frames.saturating_sub(1).to_string().len().max(LEAST)
+    const MIN_DIGITS: usize = 4;
+    frames.saturating_sub(1).to_string().len().max(MIN_DIGITS)
 }
 
 /// Returns the file name of a frame's script in a sequence of `frames` frames: `frame_0050.pov`.

@@ -16,9 +16,9 @@ use crate::simulate::Frame;
 
 /// The largest number of age groups of an emitter's particles. Each group has one color and size, so the groups show how particles change
 /// with age.
-const GROUPS: usize = 32;
+const MAX_AGE_GROUPS: usize = 32;
 /// The precision of coordinates, relative to the radius of a particle.
-const PRECISION: f64 = 0.01;
+const COORDINATE_PRECISION: f64 = 0.01;
 
 /// The part of the particles' text that is equal in all frames.
 pub(super) struct Particles {
@@ -81,7 +81,7 @@ impl Particles {
                 _ => "union {",
             };
             let _ = writeln!(out, "{opening} // {}", looks.name);
-            let step = decimal_step(look.radius * PRECISION);
+            let step = decimal_step(look.radius * COORDINATE_PRECISION);
             let mut radius = String::new();
             self.style.length(&mut radius, look.radius);
             for particle in particles {
@@ -124,7 +124,7 @@ fn group(age: f64, groups: usize) -> usize {
 /// Returns the looks of an emitter's age groups, from birth to death. There is a single look if neither color nor size changes.
 fn groups(emitter: &Emitter, style: Style) -> Vec<Look> {
     let changes = emitter.colors.len() > 1 || emitter.sizes.len() > 1;
-    let count = if changes && emitter.source.longest_life.is_finite() { GROUPS } else { 1 };
+    let count = if changes && emitter.source.longest_life.is_finite() { MAX_AGE_GROUPS } else { 1 };
     let look = |number: usize| {
         // The first group has the look at birth, and the last group has the look at death. The groups between have the looks at evenly
         // spaced ages.

@@ -6,7 +6,7 @@ use super::number;
 use crate::scene::SdlPiece;
 
 /// The smallest distance between two points that count as different, POV-Ray units. The limit of POV-Ray's parser is 10⁻¹⁰.
-const NEAREST: f64 = 1e-8;
+const MIN_POINT_DISTANCE: f64 = 1e-8;
 
 /// The unit and precision of numbers in the scripts of a scene.
 #[derive(Clone, Copy, Debug)]
@@ -84,7 +84,7 @@ impl Style {
         };
         self.can_write(from)
             && self.can_write(to)
-            && (to - from).length() / self.unit > NEAREST
+            && (to - from).length() / self.unit > MIN_POINT_DISTANCE
             && written(from) != written(to)
     }
 }

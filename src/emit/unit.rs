@@ -7,7 +7,7 @@ use crate::simulate::Bounds;
 
 /// The smallest half thickness of a body, POV-Ray units. POV-Ray 3.7 draws edges and shadows of thinner bodies wrongly, since it treats
 /// points closer than 0.001 as one (measured).
-const THINNEST: f64 = 0.01;
+const MIN_HALF_THICKNESS: f64 = 0.01;
 
 /// The length unit of a scene's scripts.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,8 @@ impl Unit {
         // If the view of an orthographic camera is wider than some hundred units, POV-Ray mistakes rounding errors for intersections.
         let reach = reach(plan).metres.max(300.0 * parallel(plan));
         let length = scene.povray.unit.unwrap_or_else(|| unit(reach, thinnest.map(|(_, half)| half)));
-        let too_thin = thinnest.filter(|(_, half)| half / length < THINNEST * 0.99).map(|(id, _)| id);
+        let too_thin =
+            thinnest.filter(|(_, half)| half / length < MIN_HALF_THICKNESS * 0.99).map(|(id, _)| id);
         Unit { length, too_thin }
     }
 }
@@ -74,15 +75,15 @@ fn parallel(plan: &Plan) -> f64 {
 ///
 /// Coordinates stay below 10⁵ units, far from the 10⁷ at which POV-Ray 3.7 stops looking for intersections.
 fn unit(reach: f64, thinnest: Option<f64>) -> f64 {
-    const FARTHEST: f64 = 1e5;
-    let thinnest = thinnest.unwrap_or(THINNEST);
+    const MAX_COORDINATE: f64 = 1e5;
+    let thinnest = thinnest.unwrap_or(MIN_HALF_THICKNESS);
     // Both are powers of ten: `far` is the smallest unit that suits the largest coordinate, and `thin` is the largest unit that suits the
     // thinnest body. The largest coordinate has priority.
-    let far = 1.0 / decimal_step(FARTHEST / reach);
-    let thin = decimal_step(thinnest / THINNEST);
-    if thinnest >= THINNEST && reach <= FARTHEST {
+    let far = 1.0 / decimal_step(MAX_COORDINATE / reach);
+    let thin = decimal_step(thinnest / MIN_HALF_THICKNESS);
+    if thinnest >= MIN_HALF_THICKNESS && reach <= MAX_COORDINATE {
         1.0
-    } else if reach > FARTHEST {
+    } else if reach > MAX_COORDINATE {
         far
     } else {
         thin.max(far)
@@ -105,7 +106,7 @@ mod tests {
         {
             let unit = unit(reach, Some(thinnest));
             assert!(
-                reach / unit <= 1.000_001e5 && thinnest / unit >= THINNEST * 0.99,
+                reach / unit <= 1.000_001e5 && thinnest / unit >= MIN_HALF_THICKNESS * 0.99,
                 "{reach} {thinnest}: {unit}"
             );
             assert!((libm::log10(unit) - libm::log10(unit).round()).abs() < 1e-9, "{unit} is a power of ten");

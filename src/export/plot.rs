@@ -15,7 +15,7 @@ use crate::simulate::{Recorded, Selection};
 use crate::svg::{Anchor, HALF_OF_LETTERS};
 
 /// The width of the drawing, pixels.
-const WIDTH: f64 = 800.0;
+const PLOT_WIDTH: f64 = 800.0;
 /// The width of the lines of grid and axes, pixels.
 const LINE_WIDTH: f64 = 1.0;
 /// The width of the curves, pixels.
@@ -130,7 +130,7 @@ impl Format for PlotDrawing {
 
 /// Returns a plot as a drawing.
 fn drawing(plot: &PlannedPlot, bars: &[PlotBar]) -> Drawing {
-    let scale = WIDTH / plot.size[0];
+    let scale = PLOT_WIDTH / plot.size[0];
     let high = plot.size[1] * scale;
     let at = |[x, y]: [f64; 2]| [x * scale, high - y * scale];
     let rule = |line: &PlotLine| {
@@ -165,7 +165,7 @@ fn drawing(plot: &PlannedPlot, bars: &[PlotBar]) -> Drawing {
             color: text.color.bytes(),
         }
     }));
-    Drawing { size: [WIDTH, high], background: Color::WHITE.bytes(), items }
+    Drawing { size: [PLOT_WIDTH, high], background: Color::WHITE.bytes(), items }
 }
 
 #[cfg(test)]

@@ -60,11 +60,11 @@ pub(super) struct Arrow {
 /// The length of the longest arrow without a given scale, relative to the width of the picture.
 pub(super) const LONGEST: f64 = 0.13;
 /// The radius of an arrow's shaft, in strokes. A stroke is the width of a clearly visible line.
-const SHAFT: f64 = 0.6;
+const SHAFT_RADIUS: f64 = 0.6;
 /// The radius of an arrow's head, relative to the radius of its shaft.
 pub(super) const HEAD: f64 = 3.2;
 /// The length below which an arrow is omitted, relative to the width of the picture: less than a tenth of a pixel.
-const NOTHING: f64 = 5e-5;
+const INVISIBLE_LENGTH: f64 = 5e-5;
 
 /// The drawn length of one unit of each quantity, m, for arrows without a given scale.
 pub(super) type Scales = [f64; Quantity::SCALE_COUNT];
@@ -210,12 +210,12 @@ impl Arrows {
 
     /// The sizes of arrows in all pictures of a fixed camera. `scales` are the scales that its position was chosen for.
     pub(super) fn still_sizes(&self, scales: Scales, view: f64, stroke: f64) -> ArrowSizes {
-        ArrowSizes { view, radius: SHAFT * stroke, scales }
+        ArrowSizes { view, radius: SHAFT_RADIUS * stroke, scales }
     }
 
     /// The sizes of arrows in one picture of a moving camera. They change smoothly with the width in view.
     pub(super) fn sizes(&self, view: f64, stroke: f64) -> ArrowSizes {
-        ArrowSizes { view, radius: SHAFT * stroke, scales: scales(self.longest, view) }
+        ArrowSizes { view, radius: SHAFT_RADIUS * stroke, scales: scales(self.longest, view) }
     }
 
     /// Computes the arrows of a frame as seen by a camera: first those of bodies, then those of joints.
@@ -365,7 +365,7 @@ impl Arrows {
 
 /// True if an arrow is finite and long enough to be drawn.
 fn is_seen(from: DVec3, to: DVec3, sizes: ArrowSizes) -> bool {
-    to.is_finite() && from.distance(to) > NOTHING * sizes.view
+    to.is_finite() && from.distance(to) > INVISIBLE_LENGTH * sizes.view
 }
 
 #[cfg(test)]

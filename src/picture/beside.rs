@@ -9,9 +9,9 @@ use crate::scene::Body;
 use crate::simulate::surface;
 
 /// The distance between two arrows placed side by side, in radii of an arrow's head.
-const APART: f64 = 2.2;
+const ARROW_GAP: f64 = 2.2;
 /// The angles between two arrows, rad, up to which they are fully moved apart, and from which they are not moved at all.
-const ANGLES: [f64; 2] = [0.12, 0.35];
+const BLENDED_ANGLES: [f64; 2] = [0.12, 0.35];
 
 /// Moves the overlapping arrows of a body sideways, as seen by a camera. The offset changes smoothly with the directions and lengths of
 /// the arrows.
@@ -29,7 +29,7 @@ pub(super) fn apart(arrows: &mut [Arrow], body: &Body, at: &BodySnapshot, camera
         }
         let along = (arrow.to - arrow.from).normalize_or_zero();
         let side = along.cross(camera.towards(arrow.from)).normalize_or_zero();
-        let offset = side * (steps * APART * HEAD * arrow.radius);
+        let offset = side * (steps * ARROW_GAP * HEAD * arrow.radius);
         let drawn = body.drawn();
         let turn = DMat3::from_quat(at.orientation.conjugate());
         let reach = drawn.exit(turn * offset, turn * along);
@@ -46,7 +46,7 @@ fn overlap(one: &Arrow, other: &Arrow) -> f64 {
     if !angle.is_finite() {
         return 0.0;
     }
-    let turned = ((ANGLES[1] - angle) / (ANGLES[1] - ANGLES[0])).clamp(0.0, 1.0);
+    let turned = ((BLENDED_ANGLES[1] - angle) / (BLENDED_ANGLES[1] - BLENDED_ANGLES[0])).clamp(0.0, 1.0);
     let grown = (a.length().min(b.length()) / (2.0 * HEAD * one.radius)).min(1.0);
     turned * turned * (3.0 - 2.0 * turned) * grown
 }

@@ -8,19 +8,19 @@
 use glam::DVec3;
 
 /// The number of straight pieces of a drawn curve. Each piece deviates from the curve by at most h u / 2304.
-const PIECES: u32 = 24;
+const PIECES_PER_CURVE: u32 = 24;
 
 /// The horizontal distance between the ends, relative to the rope's length, below which the rope hangs straight down.
-const UPRIGHT: f64 = 1e-9;
+const UPRIGHT_RATIO: f64 = 1e-9;
 
 /// The slack, relative to the rope's length, up to which the rope counts as straight.
-const TAUT: f64 = 1e-12;
+const TAUT_TOLERANCE: f64 = 1e-12;
 
 /// The points of a hanging rope without stiffness, m. `down` is the direction of gravity, a unit vector; without gravity the rope is a
 /// circular arc. A rope that is no longer than the distance between its ends is a straight line with two points.
 pub(super) fn hanging(ends: [DVec3; 2], length: f64, down: Option<DVec3>) -> Vec<DVec3> {
     let distance = ends[0].distance(ends[1]);
-    if length - distance <= TAUT * length {
+    if length - distance <= TAUT_TOLERANCE * length {
         return ends.to_vec();
     }
     let Some(down) = down else { return arc(ends, length) };
@@ -54,7 +54,7 @@ impl Catenary {
         let rise = -way.dot(down);
         let across = way + down * rise;
         let width = across.length();
-        if width < UPRIGHT * length {
+        if width < UPRIGHT_RATIO * length {
             return None;
         }
         // Compute (L² − v²)/h² − 1 without cancellation.
@@ -77,7 +77,8 @@ impl Catenary {
     }
 
     fn points(&self) -> Vec<DVec3> {
-        let inner = (1..PIECES).map(|piece| self.point(f64::from(piece) / f64::from(PIECES)));
+        let inner =
+            (1..PIECES_PER_CURVE).map(|piece| self.point(f64::from(piece) / f64::from(PIECES_PER_CURVE)));
         std::iter::once(self.ends[0]).chain(inner).chain([self.ends[1]]).collect()
     }
 }
@@ -132,10 +133,10 @@ fn arc(ends: [DVec3; 2], length: f64) -> Vec<DVec3> {
     let side = DVec3::NEG_Y.reject_from_normalized(along).normalize_or(DVec3::X);
     let centre = from.midpoint(to) + side * (-radius * libm::cos(half));
     let point = |piece: u32| {
-        let angle = half * (2.0 * f64::from(piece) / f64::from(PIECES) - 1.0);
+        let angle = half * (2.0 * f64::from(piece) / f64::from(PIECES_PER_CURVE) - 1.0);
         centre + radius * (along * libm::sin(angle) + side * libm::cos(angle))
     };
-    std::iter::once(from).chain((1..PIECES).map(point)).chain([to]).collect()
+    std::iter::once(from).chain((1..PIECES_PER_CURVE).map(point)).chain([to]).collect()
 }
 
 #[cfg(test)]
@@ -161,7 +162,7 @@ mod tests {
                 let asked = ends[0].distance(ends[1]) * (1.0 + slack);
                 // Only ends that hang nearly one below the other have no catenary.
                 let Some(curve) = Catenary::new(ends, asked, DOWN) else {
-                    assert!(to[0] < 2.0 * UPRIGHT * asked);
+                    assert!(to[0] < 2.0 * UPRIGHT_RATIO * asked);
                     continue;
                 };
                 assert!((length(&curve) / asked - 1.0).abs() < 1e-9, "{to:?} {slack}: {}", length(&curve));

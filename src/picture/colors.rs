@@ -4,9 +4,9 @@ use crate::scene::Color;
 
 /// The color of a body's ghost: the body's color, mixed with the color of a `dark` or light background.
 pub fn pale(color: Color, dark: bool) -> Color {
-    const PALER: f64 = 0.5;
+    const GHOST_BLEND: f64 = 0.5;
     let towards = if dark { 0.12 } else { 0.93 };
-    Color(color.0.map(|part| part + PALER * (towards - part)))
+    Color(color.0.map(|part| part + GHOST_BLEND * (towards - part)))
 }
 
 /// Adjusts a color so that it stands out from a `dark` or light background. Dark colors become lighter on a dark background.

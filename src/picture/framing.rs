@@ -8,9 +8,9 @@ use crate::scene::Output;
 use crate::simulate::Bounds;
 
 /// The components of the direction from the motion to the camera: mainly forward, a little sideways, and a little upward.
-const FRONT: f64 = 1.0;
-const ASIDE: f64 = 0.16;
-const ABOVE: f64 = 0.11;
+const FORWARD_COMPONENT: f64 = 1.0;
+const SIDEWAYS_COMPONENT: f64 = 0.16;
+const UPWARD_COMPONENT: f64 = 0.11;
 /// The upward component of the direction to the camera if the ground has numbers, which are read from above.
 const ABOVE_GRID: f64 = 0.36;
 /// The upward component of the direction to the camera for flat motion: a circle on the ground is seen as an ellipse, and not edge-on.
@@ -19,10 +19,10 @@ const HIGH_ABOVE: f64 = 0.7;
 /// shows the horizon.
 const LOW_ABOVE: f64 = 0.15;
 /// Motion is long if its depth is below this fraction of its width across the picture.
-const LONG: f64 = 2.0 / 3.0;
+const LONG_MOTION_RATIO: f64 = 2.0 / 3.0;
 /// For long flat motion, the camera is so high that the depth of the motion is drawn at least this many times as high as the largest body
 /// is wide. The bodies in front then hide few of those behind.
-const CLEAR: f64 = 1.5;
+const CLEAR_DEPTH: f64 = 1.5;
 
 /// Chooses the direction from the middle of the motion towards a camera without a given position. The camera faces the plane of the
 /// motion: usually from the front, along x for motion in y and z, from above for motion in x and z. It also faces a
@@ -35,19 +35,23 @@ pub(super) fn towards_camera(moving: Bounds, sight: DirectionHints) -> DVec3 {
     let is_flat = depth > 1.5 * extent.y && depth > (0.25 * across).min(4.0 * extent.y);
     let above = match (is_flat, sight) {
         (true, DirectionHints { reads_ground: false, on_ground: Some(width), .. })
-            if depth < LONG * across =>
+            if depth < LONG_MOTION_RATIO * across =>
         {
-            (CLEAR * width / depth).clamp(LOW_ABOVE, HIGH_ABOVE)
+            (CLEAR_DEPTH * width / depth).clamp(LOW_ABOVE, HIGH_ABOVE)
         }
         (true, _) => HIGH_ABOVE,
         (false, DirectionHints { reads_ground: true, .. }) => ABOVE_GRID,
-        (false, _) => ABOVE,
+        (false, _) => UPWARD_COMPONENT,
     };
-    if from_the_side { DVec3::new(-FRONT, above, ASIDE) } else { DVec3::new(ASIDE, above, FRONT) }
+    if from_the_side {
+        DVec3::new(-FORWARD_COMPONENT, above, SIDEWAYS_COMPONENT)
+    } else {
+        DVec3::new(SIDEWAYS_COMPONENT, above, FORWARD_COMPONENT)
+    }
 }
 
 /// The largest fraction of the picture's width and height that the motion may fill.
-const FILL: f64 = 0.86;
+const MAX_FILLED: f64 = 0.86;
 
 /// The position of a camera and the point that it looks at, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -149,7 +153,7 @@ pub(super) fn view_for(
                 let offset = corner - aim;
                 (offset.dot(axes.0).abs() / free.half).max(offset.dot(axes.1).abs() * aspect)
             };
-            2.0 * corners.into_iter().map(half).fold(0.0, f64::max) / FILL
+            2.0 * corners.into_iter().map(half).fold(0.0, f64::max) / MAX_FILLED
         }
     }
 }
@@ -229,10 +233,10 @@ fn distance(corners: &[DVec3; 8], aim: DVec3, axes: (DVec3, DVec3, DVec3), field
     let (right, up, back) = axes;
     let needed = |corner: &DVec3| {
         let offset = *corner - aim;
-        let edge = field.half * FILL;
+        let edge = field.half * MAX_FILLED;
         let across = offset.dot(right);
         let across = (across / (field.center + edge)).max(across / (field.center - edge));
-        let upward = offset.dot(up).abs() / (field.vertical * FILL);
+        let upward = offset.dot(up).abs() / (field.vertical * MAX_FILLED);
         across.max(upward) + offset.dot(back)
     };
     corners.iter().map(needed).fold(0.0, f64::max)
@@ -302,7 +306,7 @@ mod tests {
                 fullest = fullest.max(x).max(y);
             }
             // The position of the camera is rounded to at most a hundredth of its distance.
-            assert!((fullest - FILL).abs() < 0.03, "{bounds:?} fills {fullest}");
+            assert!((fullest - MAX_FILLED).abs() < 0.03, "{bounds:?} fills {fullest}");
         }
     }
 
@@ -337,7 +341,7 @@ mod tests {
                 fullest[1] = fullest[1].max(across).max(offset.dot(up).abs() * 1280.0 / 720.0);
             }
             for fullest in fullest {
-                assert!((fullest - FILL).abs() < 0.05, "{bounds:?} fills {fullest}");
+                assert!((fullest - MAX_FILLED).abs() < 0.05, "{bounds:?} fills {fullest}");
             }
         }
     }
@@ -356,7 +360,7 @@ mod tests {
                 let upward = offset.dot(up).abs() * 1280.0 / 720.0;
                 fullest = fullest.max(offset.dot(right).abs().max(upward) / (width / 2.0));
             }
-            assert!((fullest - FILL).abs() < 0.03, "{towards:?} fills {fullest}");
+            assert!((fullest - MAX_FILLED).abs() < 0.03, "{towards:?} fills {fullest}");
         }
     }
 
@@ -366,18 +370,21 @@ mod tests {
             let half = DVec3::from_array(size) / 2.0;
             towards_camera(Bounds { min: -half, max: half }, DirectionHints::default()).to_array()
         };
-        let front = [ASIDE, ABOVE, FRONT];
+        let front = [SIDEWAYS_COMPONENT, UPWARD_COMPONENT, FORWARD_COMPONENT];
         for size in [[9.0, 5.0, 1.0], [1.0, 1.0, 1.0], [5.0, 3.0, 3.0], [100.0, 0.8, 1.2], [0.2, 100.0, 0.2]]
         {
             assert_eq!(towards(size), front, "{size:?}");
         }
         let cube = Bounds { min: DVec3::ZERO, max: DVec3::ONE };
         let numbers = DirectionHints { reads_ground: true, ..DirectionHints::default() };
-        assert_eq!(towards_camera(cube, numbers).to_array(), [ASIDE, ABOVE_GRID, FRONT]);
-        assert_eq!(towards([4.0, 0.2, 4.0]), [ASIDE, HIGH_ABOVE, FRONT]);
-        assert_eq!(towards([10.0, 0.2, 1.5]), [ASIDE, HIGH_ABOVE, FRONT]);
-        assert_eq!(towards([0.5, 6.0, 20.0]), [-FRONT, ABOVE, ASIDE]);
-        assert_eq!(towards([2.0, 0.1, 20.0]), [-FRONT, HIGH_ABOVE, ASIDE]);
+        assert_eq!(
+            towards_camera(cube, numbers).to_array(),
+            [SIDEWAYS_COMPONENT, ABOVE_GRID, FORWARD_COMPONENT]
+        );
+        assert_eq!(towards([4.0, 0.2, 4.0]), [SIDEWAYS_COMPONENT, HIGH_ABOVE, FORWARD_COMPONENT]);
+        assert_eq!(towards([10.0, 0.2, 1.5]), [SIDEWAYS_COMPONENT, HIGH_ABOVE, FORWARD_COMPONENT]);
+        assert_eq!(towards([0.5, 6.0, 20.0]), [-FORWARD_COMPONENT, UPWARD_COMPONENT, SIDEWAYS_COMPONENT]);
+        assert_eq!(towards([2.0, 0.1, 20.0]), [-FORWARD_COMPONENT, HIGH_ABOVE, SIDEWAYS_COMPONENT]);
     }
 
     /// A lane of 10 m by 3 m. From a low camera, small bodies hide few of those behind; large bodies need a higher camera.
@@ -393,7 +400,7 @@ mod tests {
         assert!((above([3.0, 0.4, 10.0], 0.8) - 0.4).abs() < 1e-12, "from the side");
         assert_eq!(above([10.0, 0.4, 3.0], 4.0), HIGH_ABOVE);
         assert_eq!(above([10.0, 0.4, 8.0], 0.1), HIGH_ABOVE, "a table is not long");
-        assert_eq!(above([10.0, 5.0, 1.0], 0.1), ABOVE, "a wall is not flat");
+        assert_eq!(above([10.0, 5.0, 1.0], 0.1), UPWARD_COMPONENT, "a wall is not flat");
     }
 
     #[test]

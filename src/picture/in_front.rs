@@ -11,7 +11,7 @@ use crate::physics::{BodySnapshot, Shape};
 use crate::scene::{Body, Quantity, Scene};
 
 /// A line that is moved towards the camera keeps at least this fraction of its distance from the camera.
-const NEAREST: f64 = 0.02;
+const MIN_DISTANCE_FRACTION: f64 = 0.02;
 
 /// The planes that may hide arrows and marks: the ground and plane bodies.
 #[derive(Clone, Debug)]
@@ -123,7 +123,7 @@ pub(super) fn lift_from_body(arrow: &mut Arrow, body: &Body, at: &BodySnapshot, 
 /// Moves a line to a fraction of its distance from the camera, and scales it by the same fraction. It then looks the same in the picture.
 fn nearer(line: &Line, camera: &Placed, part: f64) -> Line {
     let eye = camera.location();
-    let part = part.clamp(NEAREST, 1.0);
+    let part = part.clamp(MIN_DISTANCE_FRACTION, 1.0);
     let place = |point: DVec3| eye + (point - eye) * part;
     Line { from: place(line.from), to: place(line.to), radius: line.radius * part }
 }

@@ -9,9 +9,9 @@ use crate::scene::{Quantity, Scene};
 use crate::simulate::Survey;
 
 /// The length below which an arrow is invisible, pixels.
-const SHORTEST: f64 = 1.0;
+const MIN_VISIBLE_LENGTH: f64 = 1.0;
 /// The width below which a line is invisible, pixels.
-const THINNEST: f64 = 0.1;
+const MIN_VISIBLE_WIDTH: f64 = 0.1;
 
 /// A requested thing that is invisible in all pictures, or from some time on. Lengths are in meters.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,7 +111,7 @@ pub(super) fn find(
         let fit = (arrow.longest > 0.0).then(|| round_down(LONGEST * view / arrow.longest));
         let why = match (arrow.lost, scale, fit) {
             (Some(time), ..) => Reason::Lost { time, fit },
-            (None, Some(scale), Some(fit)) if arrow.longest * scale < SHORTEST * pixel => {
+            (None, Some(scale), Some(fit)) if arrow.longest * scale < MIN_VISIBLE_LENGTH * pixel => {
                 Reason::TooSmall { pixels: arrow.longest * scale / pixel, fit }
             }
             _ => continue,
@@ -125,7 +125,7 @@ pub(super) fn find(
         let why = match scale {
             // A body without normal force had no contact. Friction can be zero in spite of a contact.
             _ if arrow.quantity == Quantity::Normal && arrow.longest == 0.0 => Reason::Untouched,
-            Some(scale) if arrow.longest > 0.0 && arrow.longest * scale < SHORTEST * pixel => {
+            Some(scale) if arrow.longest > 0.0 && arrow.longest * scale < MIN_VISIBLE_LENGTH * pixel => {
                 let fit = round_down(LONGEST * view / arrow.longest);
                 Reason::TooSmall { pixels: arrow.longest * scale / pixel, fit }
             }
@@ -136,7 +136,9 @@ pub(super) fn find(
     for (number, longest) in &survey.requested.forces {
         let force = &scene.forces[*number];
         let scale = force.arrow.and_then(|arrow| arrow.scale);
-        if let Some(scale) = scale.filter(|scale| *longest > 0.0 && longest * scale < SHORTEST * pixel) {
+        if let Some(scale) =
+            scale.filter(|scale| *longest > 0.0 && longest * scale < MIN_VISIBLE_LENGTH * pixel)
+        {
             let fit = round_down(LONGEST * view / longest);
             found.add(
                 RequestedItem::ForceArrow,
@@ -147,7 +149,7 @@ pub(super) fn find(
     }
     for body in &scene.bodies {
         let Some(length) = body.showing.axes.and_then(|axes| axes.length) else { continue };
-        if length < SHORTEST * pixel {
+        if length < MIN_VISIBLE_LENGTH * pixel {
             let why = Reason::TooSmall { pixels: length / pixel, fit: decimal_step(0.2 * view) };
             found.add(RequestedItem::Axes, &body.name, why);
         }
@@ -155,7 +157,7 @@ pub(super) fn find(
     for trail in &survey.requested.trails {
         let body = &scene.bodies[trail.body];
         let Some(width) = body.showing.trail.and_then(|trail| trail.width) else { continue };
-        if width < THINNEST * pixel {
+        if width < MIN_VISIBLE_WIDTH * pixel {
             let why = Reason::TooSmall { pixels: width / pixel, fit: decimal_step(6.0 * pixel) };
             found.add(RequestedItem::Trail, &body.name, why);
         } else if trail.largest_distance > 0.0 && trail.largest_distance <= width / 2.0 {
@@ -180,7 +182,7 @@ pub(super) fn find(
         if room >= spring.largest_gap {
             let fit = (spring.largest_gap > 0.0).then(|| decimal_step(0.3 * spring.largest_gap));
             found.add(what, &spring.force, Reason::NoRoom { radius, fit });
-        } else if 2.0 * radius < THINNEST * pixel {
+        } else if 2.0 * radius < MIN_VISIBLE_WIDTH * pixel {
             let why = Reason::TooSmall {
                 pixels: 2.0 * radius / pixel,
                 fit: decimal_step(0.1 * spring.largest_gap),

@@ -6,7 +6,7 @@ use super::screen::Screen;
 use super::text::Text;
 
 /// The number of cells across the picture.
-const CELLS: f64 = 48.0;
+const CELLS_ACROSS: f64 = 48.0;
 
 /// A rectangle in the image plane. The picture has a width of 2, and (0, 0) is in its middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,7 +63,7 @@ impl Cell {
 impl Occupancy {
     /// Creates a record of a picture in which nothing is taken. `aspect` is the height of the picture, relative to its width.
     pub(super) fn new(aspect: f64) -> Occupancy {
-        let (across, upward) = (CELLS, (CELLS * aspect).ceil().clamp(1.0, CELLS));
+        let (across, upward) = (CELLS_ACROSS, (CELLS_ACROSS * aspect).ceil().clamp(1.0, CELLS_ACROSS));
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "both are 48 at most")]
         let (across, upward) = (across as usize, upward as usize);
         Occupancy { aspect, across, upward, cells: Vec::new() }

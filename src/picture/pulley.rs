@@ -5,10 +5,10 @@ use glam::DVec3;
 use super::catenary::hanging;
 
 /// The number of straight pieces of a rope around a wheel.
-const PIECES: u32 = 10;
+const PIECES_PER_WHEEL: u32 = 10;
 
 /// The largest distance between a wheel's center and its corner of the rope, in radii of the wheel.
-const FARTHEST: f64 = 3.0;
+const MAX_CORNER_DISTANCE: f64 = 3.0;
 
 /// The largest distance between the center of a wheel on a body and its corner of the rope, in radii of the wheel. The wheel touches the
 /// point of the body, so that it does not seem to float.
@@ -52,7 +52,7 @@ impl RopePath {
         let mut corners = path.to_vec();
         corners.dedup_by(|next, before| next.place.distance(before.place) <= 1e-9 * taut);
         let turn = |way: &[RopePoint]| {
-            let farthest = if way[1].is_on_body { FARTHEST_ON_BODY } else { FARTHEST };
+            let farthest = if way[1].is_on_body { FARTHEST_ON_BODY } else { MAX_CORNER_DISTANCE };
             WheelArc::new([0, 1, 2].map(|i| way[i].place), radius, farthest)
         };
         let turns = corners.windows(3).map(turn).collect();
@@ -112,10 +112,11 @@ impl WheelArc {
                 let begin = come - open;
                 let end = go + shut - std::f64::consts::TAU;
                 let at = |piece: u32| {
-                    let angle = begin + (end - begin).min(0.0) * f64::from(piece) / f64::from(PIECES);
+                    let angle =
+                        begin + (end - begin).min(0.0) * f64::from(piece) / f64::from(PIECES_PER_WHEEL);
                     centre + radius * (libm::cos(angle) * inward + libm::sin(angle) * side)
                 };
-                (0..=PIECES).map(at).collect()
+                (0..=PIECES_PER_WHEEL).map(at).collect()
             }
             // An end of the rope is inside the wheel.
             _ => vec![corner],
@@ -179,7 +180,7 @@ mod tests {
         let length = |path: &[DVec3]| path.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>();
         let points = course.points(length(&path), 1.0, Some(DVec3::NEG_Y));
         for (turn, corner) in course.turns.iter().zip(&path[1..]) {
-            let farthest = if corner.y == 0.0 { FARTHEST_ON_BODY } else { FARTHEST };
+            let farthest = if corner.y == 0.0 { FARTHEST_ON_BODY } else { MAX_CORNER_DISTANCE };
             assert!(turn.centre.distance(*corner) <= 0.05 * farthest + 1e-12, "{}", turn.centre);
         }
         let missing = length(&path) - length(&points);

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 /// The distance of the image plane from the camera, relative to the distance of the camera's aim.
-const NEAR: f64 = 0.01;
+const IMAGE_PLANE_DISTANCE: f64 = 0.01;
 
 /// The image plane of a camera. On the plane, x goes from -1 at the left edge of the picture to 1 at the right edge. y is 0 in the middle,
 /// and has the same scale.
@@ -52,7 +52,7 @@ impl Screen {
         };
         let depth = match sharp {
             Some(point) => (location - point).dot(back),
-            None => NEAR * location.distance(look_at),
+            None => IMAGE_PLANE_DISTANCE * location.distance(look_at),
         };
         let half = slope.map_or(width / 2.0, |slope| slope * depth);
         Screen { location, right, up: back.cross(right).normalize_or(DVec3::Y), back, depth, half, slope }

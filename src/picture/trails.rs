@@ -12,13 +12,13 @@ use crate::scene::{Color, Scene};
 use crate::simulate::{Frame, TrailPath, TrailPoint};
 
 /// The default color of a trail if the body has no single color.
-const AMBER: Color = Color([0.93, 0.55, 0.08]);
+const DEFAULT_TRAIL_COLOR: Color = Color([0.93, 0.55, 0.08]);
 /// The width of a trail, relative to the smallest visible distance. A trail is some pixels wide.
-const FINEST: f64 = 50.0;
+const TRAIL_WIDTH: f64 = 50.0;
 /// The number of pieces in a stretch. A piece connects the points of two stored frames.
-const STRETCH: usize = 32;
+const PIECES_PER_STRETCH: usize = 32;
 /// The largest number of stretches of a trail that the cache holds: twice as many as one frame can show.
-const REMEMBERED: usize = 32;
+const MAX_CACHED_STRETCHES: usize = 32;
 
 /// The trail of a body up to some time.
 #[derive(Clone, Debug, PartialEq)]
@@ -137,7 +137,7 @@ impl Remembered {
         }
         let part = make();
         let mut made = made();
-        if made.len() >= REMEMBERED {
+        if made.len() >= MAX_CACHED_STRETCHES {
             made.pop_front();
         }
         made.push_back(Made { stride, number, part: part.clone() });
@@ -161,9 +161,9 @@ impl Trails {
                 stretches: Vec::new(),
                 reach: 0.0,
                 radius: trail.width.unwrap_or(0.0) / 2.0,
-                fineness: decimal_step(least / FINEST),
+                fineness: decimal_step(least / TRAIL_WIDTH),
                 tapers: trail.duration.is_some(),
-                color: trail.color.or(of_body).unwrap_or(AMBER),
+                color: trail.color.or(of_body).unwrap_or(DEFAULT_TRAIL_COLOR),
                 map: scene.trail_map_of(body),
                 shades: Vec::new(),
             };
@@ -257,17 +257,19 @@ impl Line {
 /// If a complete stretch begins at the first point, returns the number of the stretch and the index of its last point. Points at impacts
 /// lie between those of frames and are not counted.
 fn stretch_at(points: &[TrailPoint], stride: usize) -> Option<(usize, usize)> {
-    let frames = stride * STRETCH;
+    let frames = stride * PIECES_PER_STRETCH;
     let begin = points.first()?.frame.filter(|frame| frame.is_multiple_of(frames))?;
     let mut of_frames = points.iter().enumerate().filter_map(|(place, point)| Some((place, point.frame?)));
-    let (end, frame) = of_frames.nth(STRETCH)?;
+    let (end, frame) = of_frames.nth(PIECES_PER_STRETCH)?;
     (frame == begin + frames).then_some((begin / frames, end))
 }
 
-/// Returns the index of the first point after `points[0]` at which a stretch may begin: a section of `STRETCH` pieces, which later frames
+/// Returns the index of the first point after `points[0]` at which a stretch may begin: a section of `PIECES_PER_STRETCH` pieces, which later frames
 /// use as well. If there is none, returns the index of the last point.
 fn until_stretch(points: &[TrailPoint], stride: usize) -> usize {
-    let begins = |point: &TrailPoint| point.frame.is_some_and(|frame| frame.is_multiple_of(stride * STRETCH));
+    let begins = |point: &TrailPoint| {
+        point.frame.is_some_and(|frame| frame.is_multiple_of(stride * PIECES_PER_STRETCH))
+    };
     let next = points.iter().skip(1).position(begins);
     next.map_or(points.len() - 1, |next| next + 1)
 }
@@ -341,6 +343,6 @@ mod tests {
             }
         }
         let remembered = often.trails[0].stretches.made.lock().unwrap();
-        assert!((17..=REMEMBERED).contains(&remembered.len()), "{}", remembered.len());
+        assert!((17..=MAX_CACHED_STRETCHES).contains(&remembered.len()), "{}", remembered.len());
     }
 }

@@ -83,10 +83,11 @@ impl Way {
     /// The smallest length (m) on the cubic to the way at the next frame.
     fn shortest_towards(&self, next: &Way) -> f64 {
         /// The number of parts in which a turning point is looked for. A cubic approaches a point at most three times.
-        const PARTS: u32 = 8;
+        const SEARCHED_PARTS: u32 = 8;
         /// The number of halvings of a part: enough for all digits.
-        const HALVINGS: u32 = 50;
-        let parts = (0..PARTS).map(|part| [part, part + 1].map(|end| f64::from(end) / f64::from(PARTS)));
+        const MAX_HALVINGS: u32 = 50;
+        let parts = (0..SEARCHED_PARTS)
+            .map(|part| [part, part + 1].map(|end| f64::from(end) / f64::from(SEARCHED_PARTS)));
         let approaches = |part: f64| {
             let (way, rate) = self.towards(next, part);
             way.dot(rate)
@@ -95,7 +96,7 @@ impl Way {
             if !(approaches(from) < 0.0 && approaches(to) >= 0.0) {
                 return f64::INFINITY;
             }
-            for _ in 0..HALVINGS {
+            for _ in 0..MAX_HALVINGS {
                 let middle = 0.5 * (from + to);
                 if approaches(middle) < 0.0 { from = middle } else { to = middle }
             }

@@ -188,14 +188,14 @@ impl OpenSector {
 /// The area (m²) that the line sweeps between two times (s) on the path between two frames.
 fn swept((last, now): (&TrailPoint, &TrailPoint), [from, to]: [f64; 2]) -> f64 {
     /// The points and the weights of Gauss's rule on the interval from −1 to 1: 0 and ±√(3/5).
-    const RULE: [(f64, f64); 3] =
+    const GAUSS_LEGENDRE_RULE: [(f64, f64); 3] =
         [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
     let half = 0.5 * (to - from);
     let rate = |(point, weight): (f64, f64)| {
         let time = from + half * (1.0 + point);
         weight * last.towards(now, time).cross(last.velocity_towards(now, time)).length()
     };
-    0.5 * half * RULE.into_iter().map(rate).sum::<f64>()
+    0.5 * half * GAUSS_LEGENDRE_RULE.into_iter().map(rate).sum::<f64>()
 }
 
 #[cfg(test)]

@@ -53,10 +53,10 @@ pub const BEACH_BALL: [Color; 6] = [
 const WHITE: Color = Color([0.96, 0.95, 0.92]);
 
 /// The color of materials defined by POV-Ray's scene description language, whose real color is unknown.
-const UNKNOWN: Color = Color([0.6, 0.6, 0.6]);
+const UNKNOWN_COLOR: Color = Color([0.6, 0.6, 0.6]);
 
 /// The opacity of materials whose POV-Ray code makes them transparent. The code is not evaluated, so the real opacity is unknown.
-const CLEAR: f64 = 0.35;
+const UNKNOWN_OPACITY: f64 = 0.35;
 
 /// POV-Ray's keywords for transparency. Source: its documentation, 3.4.1.7 (colors).
 const SHINES_THROUGH: [&str; 8] = ["rgbf", "rgbt", "rgbft", "srgbf", "srgbt", "srgbft", "filter", "transmit"];
@@ -114,11 +114,14 @@ pub fn appearance(look: &Look, preset: Preset) -> Appearance {
         Look::Plain { color, finish } => plain(*color, *finish),
         Look::Library { material, color } => library(material, color.unwrap_or(Color::WHITE)),
         Look::Checkered => ground(preset),
-        Look::Texture(_) => Appearance::new(UNKNOWN.linear(), 0.0, 0.6),
+        Look::Texture(_) => Appearance::new(UNKNOWN_COLOR.linear(), 0.0, 0.6),
         Look::Sdl(text) => {
-            let look = Appearance::new(UNKNOWN.linear(), 0.0, 0.6);
+            let look = Appearance::new(UNKNOWN_COLOR.linear(), 0.0, 0.6);
             let [red, green, blue, all] = look.color;
-            Appearance { color: [red, green, blue, if is_clear(text) { CLEAR } else { all }], ..look }
+            Appearance {
+                color: [red, green, blue, if is_clear(text) { UNKNOWN_OPACITY } else { all }],
+                ..look
+            }
         }
     }
 }

@@ -6,12 +6,12 @@ use super::Triangles;
 use super::angles::circle;
 
 /// The length per turn for which the coil's wire is round, relative to the radius of the coil. It is typical of a spring at rest.
-const PITCH: f64 = 1.5;
+const ROUND_WIRE_PITCH: f64 = 1.5;
 
 /// Computes the triangles of a coil of radius 1 around y, from y = -1 to 1. The cross-section of its wire becomes a circle of the given
 /// radius when the coil is drawn with a length of 1.5 radii per turn. As in the POV-Ray scripts, the wire begins and ends on the axis.
 pub(super) fn coil(turns: f64, wire: f64, sides: u32) -> Triangles {
-    let length = PITCH * turns;
+    let length = ROUND_WIRE_PITCH * turns;
     let across = (sides / 6).max(4).next_multiple_of(4);
     let middles = path(turns, length, (sides / 3).max(8).next_multiple_of(4));
     let mut out = Triangles::default();

@@ -8,11 +8,11 @@ use glam::{DAffine3, DVec3, Vec3};
 use super::{SurfacePattern, Triangles};
 
 /// The edge length of a cube in the checkered pattern.
-const CUBE: f64 = 0.5;
+const CHECK_EDGE: f64 = 0.5;
 /// The height of a band in the striped pattern.
-const BAND: f64 = 0.22;
+const BAND_HEIGHT: f64 = 0.22;
 /// The height |y| beyond which a beach ball is white.
-const POLE: f64 = 0.455 * 2.002;
+const WHITE_CAP_HEIGHT: f64 = 0.455 * 2.002;
 /// The largest number of border planes. A finer pattern would look like its mean color.
 const MOST_PLANES: f64 = 200.0;
 
@@ -74,10 +74,10 @@ impl SurfacePattern {
         let families = match self {
             SurfacePattern::None => return None,
             SurfacePattern::Checkered => {
-                [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| counts(axis, 0.0, CUBE)).to_vec()
+                [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| counts(axis, 0.0, CHECK_EDGE)).to_vec()
             }
             SurfacePattern::Striped => {
-                vec![counts(DVec3::Y, BAND / 2.0, BAND), (DVec3::X, 0.0, 1.0, 1.0)]
+                vec![counts(DVec3::Y, BAND_HEIGHT / 2.0, BAND_HEIGHT), (DVec3::X, 0.0, 1.0, 1.0)]
             }
             SurfacePattern::Ground => [DVec3::X, DVec3::Z].map(|axis| counts(axis, 0.0, 1.0)).to_vec(),
             SurfacePattern::BeachBall => {
@@ -85,7 +85,7 @@ impl SurfacePattern {
                     let (sine, cosine) = libm::sincos(FRAC_PI_3 * f64::from(i));
                     Border { normal: DVec3::new(sine, 0.0, cosine), distance: 0.0 }
                 };
-                let pole = |sign: f64| Border { normal: DVec3::Y, distance: sign * POLE };
+                let pole = |sign: f64| Border { normal: DVec3::Y, distance: sign * WHITE_CAP_HEIGHT };
                 return Some((vec![side(0), side(1), side(2), pole(-1.0), pole(1.0)], 7));
             }
         };
@@ -104,13 +104,13 @@ impl SurfacePattern {
         let second_where = |even: f64| usize::from(even.rem_euclid(2.0) < 0.5);
         match self {
             SurfacePattern::None => 0,
-            SurfacePattern::Checkered => second_where((at / CUBE).floor().element_sum()),
+            SurfacePattern::Checkered => second_where((at / CHECK_EDGE).floor().element_sum()),
             SurfacePattern::Striped => {
                 let shift = if at.x > 0.0 { 1.0 } else { 0.0 };
-                second_where((at.y / BAND + 0.5).floor() + shift)
+                second_where((at.y / BAND_HEIGHT + 0.5).floor() + shift)
             }
             SurfacePattern::Ground => second_where(at.x.floor() + at.z.floor()),
-            SurfacePattern::BeachBall if at.y.abs() > POLE => 6,
+            SurfacePattern::BeachBall if at.y.abs() > WHITE_CAP_HEIGHT => 6,
             SurfacePattern::BeachBall => {
                 let sector = (libm::atan2(-at.z, at.x) / FRAC_PI_3).floor();
                 sector.rem_euclid(6.0) as usize % 6
@@ -123,10 +123,10 @@ impl Border {
     /// Cuts a convex polygon into two if the border crosses it.
     fn cut(&self, piece: Vec<Corner>) -> Vec<Vec<Corner>> {
         // The distance up to which a corner counts as lying on the border.
-        const NEAR: f64 = 1e-7;
+        const BORDER_TOLERANCE: f64 = 1e-7;
         let side = |corner: &Corner| {
             let side = self.normal.dot(corner.at) - self.distance;
-            if side.abs() < NEAR { 0.0 } else { side }
+            if side.abs() < BORDER_TOLERANCE { 0.0 } else { side }
         };
         let on = |sign: f64| piece.iter().any(|corner| side(corner) * sign > 0.0);
         if !on(1.0) || !on(-1.0) {
@@ -242,7 +242,7 @@ mod tests {
     #[test]
     fn a_beach_ball_has_six_equal_sectors_and_two_poles() {
         let (whole, parts) = parts(&BaseShape::BALL, SurfacePattern::BeachBall);
-        assert!((parts[6] / whole - (1.0 - POLE)).abs() < 2e-3, "{parts:?}");
+        assert!((parts[6] / whole - (1.0 - WHITE_CAP_HEIGHT)).abs() < 2e-3, "{parts:?}");
         assert!(parts[..6].iter().all(|part| (part / parts[0] - 1.0).abs() < 1e-3), "{parts:?}");
         let first = SurfacePattern::BeachBall.color_at(DVec3::new(0.9, 0.0, -0.1));
         let last = SurfacePattern::BeachBall.color_at(DVec3::new(0.9, 0.0, 0.1));

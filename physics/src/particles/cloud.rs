@@ -11,7 +11,7 @@ use crate::contact::{Ball, Surface};
 use crate::{BodyId, Method};
 
 /// The number of particles that are advanced side by side. Their data fit into the first-level cache.
-const LANES: usize = 128;
+const PARTICLES_PER_BATCH: usize = 128;
 
 /// A living particle at the current time of its cloud.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +66,7 @@ impl Cloud {
         (from, stride): (f64, u64),
     ) -> Cloud {
         let kind = (source.mass, source.charge);
-        let [wide, single] = [LANES, 1].map(|lanes| Stepper::new(lanes, kind, fields, method));
+        let [wide, single] = [PARTICLES_PER_BATCH, 1].map(|lanes| Stepper::new(lanes, kind, fields, method));
         let next = source.births.first_from(from).next_multiple_of(stride);
         Cloud { source, carrier, time: from, next, stride, alive: Vec::new(), wide, single, bouncer: None }
     }
@@ -125,7 +125,7 @@ impl Cloud {
         if to > self.time {
             match obstacles {
                 None => {
-                    for some in self.alive.chunks_mut(LANES) {
+                    for some in self.alive.chunks_mut(PARTICLES_PER_BATCH) {
                         self.wide.advance(some, self.time, &grid);
                     }
                 }

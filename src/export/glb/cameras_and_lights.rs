@@ -11,7 +11,7 @@ use crate::scene::{Body, LookAspect, Output, Visibility};
 use crate::simulate::{Frame, Recorded, Selection};
 
 /// The widest angle of view in the file, degrees. glTF does not allow 180 degrees.
-const WIDEST: f64 = 179.9;
+const MAX_ANGLE_OF_VIEW: f64 = 179.9;
 
 /// The cameras and lights of a scene. In the list of recorded motions, they come after the bodies, cameras first.
 pub(super) struct CamerasAndLights {
@@ -147,7 +147,7 @@ impl CameraRange {
         let aspect = f64::from(output.width) / f64::from(output.height);
         let lens = match self.lens.unwrap_or(Lens::Orthographic { width: stage.size }) {
             Lens::Perspective { angle } => {
-                let half = libm::tan(angle.min(WIDEST).to_radians() / 2.0) / aspect;
+                let half = libm::tan(angle.min(MAX_ANGLE_OF_VIEW).to_radians() / 2.0) / aspect;
                 let yfov = 2.0 * libm::atan(half);
                 CameraLens::Perspective {
                     perspective: Perspective { aspect_ratio: aspect, yfov, znear, zfar },

@@ -8,7 +8,7 @@ use super::motion::SampledMotion;
 use crate::export::ExportError;
 
 /// The size of the largest possible `.glb` file, bytes. The format stores the length of the file in 32 bits.
-pub(super) const LARGEST: u64 = u32::MAX as u64;
+pub(super) const MAX_FILE_SIZE: u64 = u32::MAX as u64;
 
 /// Writes a `.glb` file, and returns its length in bytes. A file that would be too large is refused before anything is written.
 pub(super) fn write(

@@ -16,10 +16,10 @@ use crate::scene::{Look, Scene};
 use crate::surface::{BaseShape, Detail, Piece, pieces};
 
 /// The number of pieces of bodies above which each piece gets fewer triangles.
-const MANY: usize = 200;
+const MAX_DETAILED_PIECES: usize = 200;
 
 /// The name of the root node, which contains all other nodes.
-const ROOT: &str = "jabuka";
+const ROOT_NAME: &str = "jabuka";
 
 /// A glTF document under construction.
 struct DocumentBuilder<'a> {
@@ -38,11 +38,11 @@ pub(super) fn document(
     motion: &SampledMotion,
 ) -> (Document, Geometry) {
     let drawn: Vec<Vec<Piece>> = scene.bodies.iter().map(|body| pieces(&body.drawn())).collect();
-    let many = drawn.iter().map(Vec::len).sum::<usize>() > MANY;
+    let many = drawn.iter().map(Vec::len).sum::<usize>() > MAX_DETAILED_PIECES;
     let mut builder = DocumentBuilder {
         scene,
         sight,
-        nodes: vec![Node { name: ROOT.to_owned(), ..Node::default() }],
+        nodes: vec![Node { name: ROOT_NAME.to_owned(), ..Node::default() }],
         meshes: Meshes::new(if many { Detail::Coarse } else { Detail::Fine }),
     };
     let bodies = motion.ways().iter().zip(drawn).enumerate();

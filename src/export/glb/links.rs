@@ -12,7 +12,7 @@ use crate::simulate::{Recorded, Selection};
 use crate::surface::BaseShape;
 
 /// The number of straight pieces of a rope.
-const PIECES: usize = 24;
+const PIECES_PER_ROPE: usize = 24;
 
 /// The node of a part of a spring or a joint: its name, base shape and color.
 pub(super) struct LinkNode {
@@ -36,7 +36,7 @@ pub(super) fn nodes(
             FormKind::Ball => (BaseShape::BALL, 1),
             FormKind::Coil { turns, wire } => (BaseShape::coil(turns, wire), 1),
             FormKind::Rod => (BaseShape::CYLINDER, 1),
-            FormKind::Rope => (BaseShape::CYLINDER, PIECES),
+            FormKind::Rope => (BaseShape::CYLINDER, PIECES_PER_ROPE),
         };
         let node = || LinkNode { name: format!("link {}", link.name), form: form.clone(), color: link.color };
         nodes.extend((0..count).map(|_| node()));
@@ -120,11 +120,11 @@ fn chain(points: &[DVec3]) -> impl Iterator<Item = [DVec3; 2]> {
     let last = points.len() - 1;
     #[allow(clippy::cast_precision_loss, reason = "a rope has few points")]
     let at = move |number: usize| {
-        let place = (number * last) as f64 / PIECES as f64;
-        let before = (number * last / PIECES).min(last - 1);
+        let place = (number * last) as f64 / PIECES_PER_ROPE as f64;
+        let before = (number * last / PIECES_PER_ROPE).min(last - 1);
         points[before].lerp(points[before + 1], place - before as f64)
     };
-    (0..PIECES).map(move |piece| [at(piece), at(piece + 1)])
+    (0..PIECES_PER_ROPE).map(move |piece| [at(piece), at(piece + 1)])
 }
 
 #[cfg(test)]
@@ -136,8 +136,8 @@ mod tests {
         for points in [vec![DVec3::ZERO, DVec3::X], vec![DVec3::ZERO, DVec3::NEG_Y, DVec3::X, DVec3::X * 2.0]]
         {
             let pieces: Vec<[DVec3; 2]> = chain(&points).collect();
-            assert_eq!((pieces.len(), pieces[0][0]), (PIECES, DVec3::ZERO));
-            assert!(pieces[PIECES - 1][1].abs_diff_eq(points[points.len() - 1], 1e-12));
+            assert_eq!((pieces.len(), pieces[0][0]), (PIECES_PER_ROPE, DVec3::ZERO));
+            assert!(pieces[PIECES_PER_ROPE - 1][1].abs_diff_eq(points[points.len() - 1], 1e-12));
             assert!(pieces.windows(2).all(|pair| pair[0][1] == pair[1][0]));
         }
     }

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::container::LARGEST;
+use super::container::MAX_FILE_SIZE;
 use super::visibility::Visibility;
 use crate::export::ExportError;
 use crate::picture::Pace;
@@ -224,6 +224,6 @@ impl SizeBudget {
     /// Counts this many further numbers of 4 bytes. Fails if the file would become too large.
     pub(super) fn take(&mut self, numbers: usize) -> Result<(), ExportError> {
         self.0 += 4 * numbers as u64;
-        if self.0 > LARGEST { Err(ExportError::TooLarge(self.0)) } else { Ok(()) }
+        if self.0 > MAX_FILE_SIZE { Err(ExportError::TooLarge(self.0)) } else { Ok(()) }
     }
 }

@@ -3,7 +3,7 @@
 use glam::DQuat;
 use serde_json::Value;
 
-use super::container::{LARGEST, write};
+use super::container::{MAX_FILE_SIZE, write};
 use super::document_builder::document;
 use super::motion::{SampledMotion, SizeBudget};
 use super::*;
@@ -112,7 +112,7 @@ fn what_is_too_large_is_refused_before_anything_is_written() {
     let mut motion = SampledMotion::of(&Recorded::new(&scene).unwrap(), &frames).unwrap();
     let sight = CamerasAndLights::of(&Recorded::new(&scene).unwrap(), &frames, &mut motion).unwrap();
     let (mut document, geometry) = document(&scene, sight, &[], &motion);
-    document.buffers[0].byte_length = LARGEST - 8;
+    document.buffers[0].byte_length = MAX_FILE_SIZE - 8;
     let mut out = Vec::new();
     let refused = write(&document, &geometry, &motion, &mut out);
     assert!(matches!(refused, Err(ExportError::TooLarge(_))) && out.is_empty());

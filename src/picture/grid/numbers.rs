@@ -12,7 +12,7 @@ use crate::scene::Color;
 /// The possible distances between two lines with numbers, in spacings of the grid. The smallest one that leaves enough room is used.
 const STEPS: [f64; 9] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0];
 /// If the end of a line is outside the picture, this many points of the line are tested to find one inside.
-const POINTS: u32 = 48;
+const TESTED_POINTS: u32 = 48;
 
 /// A grid laid out for a camera, with its numbers.
 #[derive(Clone, Debug)]
@@ -126,8 +126,8 @@ impl GridLayout {
         if let Some(text) = is_in(0.0) {
             return Some(text);
         }
-        let part = |point: u32| f64::from(point) / f64::from(POINTS);
-        let first = (1..=POINTS).find(|point| is_in(part(*point)).is_some())?;
+        let part = |point: u32| f64::from(point) / f64::from(TESTED_POINTS);
+        let first = (1..=TESTED_POINTS).find(|point| is_in(part(*point)).is_some())?;
         let (mut outside, mut inside) = (part(first - 1), part(first));
         for _ in 0..24 {
             let middle = (outside + inside) / 2.0;

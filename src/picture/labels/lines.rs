@@ -8,7 +8,7 @@ use crate::lettering;
 use crate::scene::{Label, LabelPlace, Output, Piece};
 
 /// The largest part of the picture's height that a label in a corner may take after it was broken into lines.
-const MOST: f64 = 0.5;
+const MAX_BROKEN_HEIGHT: f64 = 0.5;
 /// The same for a label in the center.
 const MOST_IN_CENTER: f64 = 0.9;
 
@@ -36,7 +36,7 @@ impl Block {
         let room = 2.0 * (free.half - MARGIN);
         let most = match label.place {
             LabelPlace::Body { .. } => f64::INFINITY,
-            LabelPlace::Corner(_) => MOST * 2.0 * aspect,
+            LabelPlace::Corner(_) => MAX_BROKEN_HEIGHT * 2.0 * aspect,
             LabelPlace::Center => MOST_IN_CENTER * 2.0 * aspect,
         };
         if most.is_finite() && wide * height > room {

@@ -22,7 +22,7 @@ use crate::scene::{Color, Corner, DecimalSign, Label, LabelPlace, Output, Scene}
 use crate::simulate::{Frame, Ghost, Measures, MomentState};
 
 /// The default height of a line of text, relative to the height of the picture.
-const SIZE: f64 = 0.055;
+const DEFAULT_LABEL_HEIGHT: f64 = 0.055;
 /// The default height of a line of text in the center of the picture, relative to the height of the picture.
 const SIZE_IN_CENTER: f64 = 0.1;
 /// The smallest default height of a line of text, pixels.
@@ -78,7 +78,7 @@ impl Labels {
         let labels: Vec<Planned> = scene.labels.iter().map(plan).collect();
         let layout = |time| Layout::new(&labels, time, taken.clone(), (free, aspect));
         let layouts = times(&scene.labels).into_iter().map(layout).collect();
-        let (note_height, sign) = (usual_height(SIZE, scene.output), scene.output.decimal);
+        let (note_height, sign) = (usual_height(DEFAULT_LABEL_HEIGHT, scene.output), scene.output.decimal);
         Labels { labels, layouts, measures, aspect, note_height, sign }
     }
 
@@ -159,7 +159,7 @@ impl Labels {
 /// The height of a label's line of text in the image plane.
 fn height(label: &Label, output: Output) -> f64 {
     let aspect = f64::from(output.height) / f64::from(output.width);
-    let size = if label.place == LabelPlace::Center { SIZE_IN_CENTER } else { SIZE };
+    let size = if label.place == LabelPlace::Center { SIZE_IN_CENTER } else { DEFAULT_LABEL_HEIGHT };
     label.size.map_or_else(|| usual_height(size, output), |size| 2.0 * aspect * size)
 }
 

@@ -16,7 +16,7 @@ use crate::scene::{Body, Color, JointKind, Scene};
 use crate::simulate::{Frame, Survey, surface};
 
 /// The radius of a coil's wire, relative to the radius of the coil.
-const WIRE: f64 = 0.14;
+const WIRE_RADIUS: f64 = 0.14;
 
 /// The drawn springs and joints of a scene.
 #[derive(Clone, Debug)]
@@ -127,7 +127,7 @@ impl Links {
             name: &part.name,
             kind: match part.form {
                 PlannedShape::Pin { .. } => FormKind::Ball,
-                PlannedShape::Coil { turns, .. } => FormKind::Coil { turns, wire: WIRE },
+                PlannedShape::Coil { turns, .. } => FormKind::Coil { turns, wire: WIRE_RADIUS },
                 PlannedShape::Rod { .. } | PlannedShape::Bar { .. } | PlannedShape::Wheel { .. } => {
                     FormKind::Rod
                 }
@@ -153,7 +153,7 @@ impl Links {
             PlannedShape::Pin { at, radius } => Form::Ball { at: self.place(at, frame), radius },
             PlannedShape::Coil { radius, turns } => {
                 let ends = self.span(part.between, frame, room_for(radius))?;
-                Form::Coil { ends, radius, wire: WIRE * radius, turns }
+                Form::Coil { ends, radius, wire: WIRE_RADIUS * radius, turns }
             }
             PlannedShape::Rod { between, radius } => {
                 Form::Rod { ends: self.span(between, frame, 0.0)?, radius }
@@ -235,7 +235,7 @@ fn turn(end: Anchor, frame: &Frame) -> DQuat {
 
 /// The length that a coil of a given radius must exceed to be drawn, m.
 fn room_for(radius: f64) -> f64 {
-    4.0 * WIRE * radius
+    4.0 * WIRE_RADIUS * radius
 }
 
 #[cfg(test)]

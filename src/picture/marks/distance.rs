@@ -16,7 +16,7 @@ use crate::simulate::{Bounds, DistanceNow};
 /// The length of a tick on each side of the line, relative to the width in view.
 const TICK_LENGTH: f64 = 0.009;
 /// The smallest difference of lengths that a text shows, relative to the width in view, up to a factor of ten.
-const FINENESS: f64 = 0.005;
+const MIN_SHOWN_DIFFERENCE: f64 = 0.005;
 
 #[derive(Debug)]
 struct DistanceMark {
@@ -101,12 +101,13 @@ impl Mark for DistanceMark {
 /// The middle of the part of a line that is in the picture. `None` if no part is.
 fn middle_of_visible([begin, end]: [DVec3; 2], scale: &FrameView<'_>) -> Option<DVec3> {
     /// The number of points of the line that are tried.
-    const POINTS: u32 = 64;
+    const TRIED_POINTS: u32 = 64;
     let is_visible = |point: &DVec3| {
         let spot = scale.screen.project(*point);
         spot.is_some_and(|spot| spot.x.abs() < 1.0 && spot.y.abs() < scale.aspect)
     };
-    let points = (0..=POINTS).map(|number| begin.lerp(end, f64::from(number) / f64::from(POINTS)));
+    let points =
+        (0..=TRIED_POINTS).map(|number| begin.lerp(end, f64::from(number) / f64::from(TRIED_POINTS)));
     let visible: Vec<DVec3> = points.filter(is_visible).collect();
     Some((*visible.first()? + *visible.last()?) / 2.0)
 }
@@ -115,7 +116,7 @@ fn middle_of_visible([begin, end]: [DVec3; 2], scale: &FrameView<'_>) -> Option<
 /// changes.
 fn with_unit(length: f64, view: f64) -> String {
     let (unit, symbol) = prefixed(0.1 * view);
-    let decimals = -libm::floor(libm::log10(FINENESS * view / unit));
+    let decimals = -libm::floor(libm::log10(MIN_SHOWN_DIFFERENCE * view / unit));
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is limited")]
     let decimals = decimals.clamp(0.0, 6.0) as usize;
     format!("{} {symbol}", number::typeset(&format!("{:.decimals$}", length / unit)))

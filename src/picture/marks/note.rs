@@ -11,7 +11,7 @@ use crate::scene::{Color, Piece};
 use crate::simulate::MomentState;
 
 /// The gap between a point and its text, in heights of a line.
-const GAP: f64 = 0.3;
+const TEXT_GAP: f64 = 0.3;
 /// The directions in which a text is tried, relative to the wanted one, degrees.
 const TRIED_TURNS: [f64; 8] = [0.0, 35.0, -35.0, 70.0, -70.0, 110.0, -110.0, 180.0];
 /// The additional distances at which a text is tried, in heights of a line.
@@ -107,7 +107,7 @@ pub(in crate::picture) fn movable<'a>(
     let place = |turn: f64, farther: f64| {
         let (sin, cos) = libm::sincos(turn.to_radians());
         let way = [wanted[0] * cos - wanted[1] * sin, wanted[0] * sin + wanted[1] * cos];
-        let reach = half[0] * way[0].abs() + half[1] * way[1].abs() + (GAP + farther) * height;
+        let reach = half[0] * way[0].abs() + half[1] * way[1].abs() + (TEXT_GAP + farther) * height;
         let [x, y] = [point.x + way[0] * reach, point.y + way[1] * reach];
         // The base line is below the middle of the letters.
         let y = Vertical::Middle(y - 0.25 * height);

@@ -19,7 +19,7 @@ const MAX_TICKS: f64 = 50.0;
 /// The smallest value of a logarithmic axis, in its unit.
 const MIN_LOGARITHMIC: f64 = 1e-300;
 /// The ratio of the ends of a logarithmic axis below which its numbers are evenly spaced, as those of a linear one.
-const NARROW: f64 = 4.0;
+const NARROW_RATIO: f64 = 4.0;
 
 /// An axis of a plot: the range that it shows, and its numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,7 +125,7 @@ impl Axis {
         // A quantity that keeps its value is a line in the middle.
         let is_flat = high <= low * if range.is_wider { 1.0 + MAX_ROUNDING } else { 1.0 };
         let [low, high] = if is_flat { [low / 10.0, high * 10.0] } else { [low, high] };
-        if high < NARROW * low {
+        if high < NARROW_RATIO * low {
             let even = Axis::new(&Range { span: [low, high], ..*range }, count);
             if even.low > 0.0 && even.ticks().len() > 1 {
                 return Axis { is_logarithmic: true, ..even };

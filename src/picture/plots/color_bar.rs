@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, Range};
 use super::colors::mixed;
-use super::panel::{NUMBERS_ROW, PADDING, cut};
+use super::panel::{NUMBERS_ROW, PANEL_PADDING, cut};
 use super::room::{GAP, Room};
 use super::{PlannedPlot, PlotLine, Strip};
 use crate::font::Typeface;
@@ -26,7 +26,7 @@ const MAX_INTERVALS: [f64; 6] = [6.0, 5.0, 4.0, 3.0, 2.0, 1.0];
 
 /// Returns the height of a color bar, in lines of text.
 const fn height() -> f64 {
-    2.0 * PADDING + NUMBERS_ROW + STRIP_HEIGHT + TITLE_ROW_HEIGHT
+    2.0 * PANEL_PADDING + NUMBERS_ROW + STRIP_HEIGHT + TITLE_ROW_HEIGHT
 }
 
 /// Returns the maps of a scene that have a color bar, with the corner of the bar. A map that no body has needs no bar.
@@ -82,7 +82,7 @@ fn bar(
     [ink, paper]: [Color; 2],
 ) -> PlannedPlot {
     let line = room.line;
-    let pad = PADDING * line;
+    let pad = PANEL_PADDING * line;
     let wide = room.panel_width();
     let range = Range { span, is_wider: false, is_count: map.of.is_count };
     let (axis, beside) = axis(&range, wide - 2.0 * pad, line);

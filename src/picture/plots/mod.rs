@@ -36,7 +36,7 @@ pub use self::unseen::UnseenPlot;
 /// The height of a line of text in a picture of a plot alone, where the picture has a width of 2.
 const LINE_ALONE: f64 = 0.04;
 /// The radius of the dots at the present values, relative to the height of a line of text.
-const DOT: f64 = 0.17;
+const DOT_RADIUS: f64 = 0.17;
 
 /// A plot, as it is drawn. Positions are in the image plane, relative to the lower left corner of the panel, unless noted otherwise.
 #[derive(Clone, Debug)]
@@ -304,7 +304,7 @@ fn plan(
         lines: panel.lines(&axes, [0.92, 0.82, 0.25].map(|part| mixed(ink, paper, part))),
         texts,
         curves,
-        dot: DOT * room.line,
+        dot: DOT_RADIUS * room.line,
     };
     let area = panel.area;
     (planned, (axes, area))

@@ -26,13 +26,13 @@ const MIN_LEVEL_AXIS: f64 = 0.35;
 /// The width of the name of the horizontal axis from which on it stands below the numbers, relative to the width of the panel.
 const LONG_NAME: f64 = 0.2;
 /// The heights of letters that are tried, relative to the usual height.
-const LETTERS: [f64; 6] = [1.0, 0.88, 0.77, 0.67, 0.58, 0.5];
+const LETTER_HEIGHTS: [f64; 6] = [1.0, 0.88, 0.77, 0.67, 0.58, 0.5];
 /// The distance of the contents of a panel from its edges, in lines of text.
-pub(super) const PADDING: f64 = 0.45;
+pub(super) const PANEL_PADDING: f64 = 0.45;
 /// The distance between the numbers of the vertical axis and the axis, in lines of text.
 const BESIDE_AXIS: f64 = 0.4;
 /// The distance between two rows of the legend, in lines of text.
-const ROW: f64 = 1.15;
+const LEGEND_ROW: f64 = 1.15;
 /// The height of the row with the title, in lines of text.
 const TITLE_ROW: f64 = 1.25;
 /// The height of the row with the numbers of the horizontal axis, in lines of text.
@@ -93,7 +93,7 @@ impl Panel {
         room: &Room,
     ) -> (Panel, Axes) {
         let with = |scale: f64| Panel::with_letters(scale * room.line, plot, legend, scales, room);
-        let [usual, smaller @ ..] = LETTERS;
+        let [usual, smaller @ ..] = LETTER_HEIGHTS;
         let (mut panel, mut axes, mut fits) = with(usual);
         for scale in smaller {
             if fits {
@@ -113,7 +113,7 @@ impl Panel {
         room: &Room,
     ) -> (Panel, Axes, bool) {
         let (wide, most) = (room.panel_width(), room.max_height());
-        let (pad, beside_axis) = (PADDING * line, BESIDE_AXIS * line);
+        let (pad, beside_axis) = (PANEL_PADDING * line, BESIDE_AXIS * line);
         let name_row = if width(legend.x_name, line) > LONG_NAME * wide { NAME_ROW * line } else { 0.0 };
         let title_row = if legend.title.is_some() { TITLE_ROW * line } else { 0.0 };
         // Names that are too wide to stand beside each other stand in two rows in turn.
@@ -138,7 +138,7 @@ impl Panel {
                 true => (Vec::new(), 1.0),
                 false => placed(legend, (begin, pad, wide - pad), line),
             };
-            let head = pad + title_row + (ROW * rows + 0.5) * line;
+            let head = pad + title_row + (LEGEND_ROW * rows + 0.5) * line;
             least = head + foot + MIN_AXIS * line;
             let usual = match plot.place {
                 PlotPlace::Corner(_) => (USUAL_HEIGHT * wide).max(head + foot + MIN_USUAL_AXIS * wide),
@@ -161,7 +161,7 @@ impl Panel {
             left,
             right: wide - 2.0 * pad - beside,
             bottom: foot,
-            top: high - legend_begin - (ROW * (rows - 1.0) + 0.85) * line,
+            top: high - legend_begin - (LEGEND_ROW * (rows - 1.0) + 0.85) * line,
         };
         let (left_edge, bottom) = room.corner_of(plot.place, [wide, high]);
         let words = legend.names.iter().map(|(name, _)| *name).chain([legend.x_name]).chain(legend.title);
@@ -248,7 +248,7 @@ impl Panel {
             typeface: Typeface::usual(),
             anchor: None,
         };
-        let pad = PADDING * line;
+        let pad = PANEL_PADDING * line;
         let mut texts = Vec::new();
         let room = self.size[0] - 2.0 * pad;
         if let Some(title) = legend.title {
@@ -263,7 +263,7 @@ impl Panel {
         let above = legend.names.iter().zip(&self.names).filter(|_| !legend.at_ends);
         for ((name, color), (x, number)) in above {
             let name = cut(name, self.size[0] - pad - x, line);
-            texts.push(text(name, [*x, row - ROW * number * line], 0.0, *color));
+            texts.push(text(name, [*x, row - LEGEND_ROW * number * line], 0.0, *color));
         }
         for tick in axes[1].ticks() {
             let y = bottom + tick.at * (top - bottom) - 0.27 * line;

@@ -216,10 +216,10 @@ mod tests {
     use super::*;
     use crate::Scene;
 
-    const YEAR: &str = "simulation = { duration = 3.16e7, frame_rate = 1e-5 }\n";
+    const YEAR_LONG_SIMULATION: &str = "simulation = { duration = 3.16e7, frame_rate = 1e-5 }\n";
 
     fn warnings(text: &str) -> String {
-        Scene::parse(&format!("{YEAR}{text}")).unwrap().warnings.to_text(false)
+        Scene::parse(&format!("{YEAR_LONG_SIMULATION}{text}")).unwrap().warnings.to_text(false)
     }
 
     #[test]

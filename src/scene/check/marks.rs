@@ -35,7 +35,7 @@ pub(super) struct Known<'a, 'b> {
 }
 
 /// The size up to which a vector counts as zero, relative to the largest that is likely in the run.
-const NEGLIGIBLE: f64 = 1e-9;
+const NEGLIGIBLE_VECTOR: f64 = 1e-9;
 
 impl Known<'_, '_> {
     /// The size up to which a vector of a body counts as zero, in SI units. It follows from the initial speeds and from gravity, so it is the
@@ -45,7 +45,7 @@ impl Known<'_, '_> {
         let speeds = self.things.bodies.iter().map(|body| body.start.velocity.length());
         let speed = speeds.fold(gravity * duration, f64::max);
         let acceleration = if duration > 0.0 { gravity.max(speed / duration) } else { gravity };
-        NEGLIGIBLE
+        NEGLIGIBLE_VECTOR
             * match quantity {
                 Quantity::Velocity => speed,
                 Quantity::Acceleration => acceleration,

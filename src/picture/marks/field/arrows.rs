@@ -70,16 +70,17 @@ impl FieldMark {
 
     /// A circle with a dot for an arrow towards the camera, or with a cross for one away from it.
     fn sign(&self, point: DVec3, is_towards: bool, size: f64, scale: &FrameView<'_>) -> Vec<Thing<'_>> {
-        const CORNERS: u32 = 20;
+        const CIRCLE_CORNERS: u32 = 20;
         let (right, up) = (scale.screen.right(), scale.screen.up());
         let (radius, thick) = (SIGN_RADIUS * size, HELPING_LINE_RADIUS * scale.stroke);
         let on_circle = |corner: u32| {
-            let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS));
+            let (sin, cos) =
+                libm::sincos(std::f64::consts::TAU * f64::from(corner) / f64::from(CIRCLE_CORNERS));
             point + (right * cos + up * sin) * radius
         };
         let line = |from, to| Line { from, to, radius: thick };
         let mut lines: Vec<Line> =
-            (0..CORNERS).map(|corner| line(on_circle(corner), on_circle(corner + 1))).collect();
+            (0..CIRCLE_CORNERS).map(|corner| line(on_circle(corner), on_circle(corner + 1))).collect();
         if is_towards {
             let dot = Form::Ball { at: point, radius: radius / 3.0 };
             return vec![
