@@ -25,15 +25,33 @@ pub(super) struct Block {
     pub(super) wide: f64,
 }
 
+/// The spaces at which a label may be broken.
+#[derive(Clone, Copy, PartialEq)]
+enum Breaks {
+    /// All but those between a number and its unit.
+    Anywhere,
+    /// Also not those beside a sign of [`SIGNS`].
+    BesideFormulas,
+}
+
+/// The signs that stay in one line with what is on either side of them.
+const SIGNS: [char; 12] = ['=', '≈', '≠', '<', '>', '≤', '≥', '∝', '·', '×', '/', '→'];
+
 impl Block {
-    /// Breaks a label into lines at spaces if it is wider than the free part of the picture. The lines get about the same length. If a
-    /// word is too long, or if there are too many lines, the letters get smaller. A label beside a body keeps its lines.
+    /// Breaks a label into lines at spaces if it is wider than the free part of the picture. The lines get about the same length. A formula
+    /// such as `v = 2 m/s` stays in one line if it fits. If a word is too long, or if there are too many lines, the letters get smaller. A
+    /// label beside a body keeps its lines.
     pub(super) fn new(label: &Label, free: Free, output: Output) -> Block {
         let aspect = f64::from(output.height) / f64::from(output.width);
-        let words = Words::of(label);
         let mut height = height(label, output);
-        let (mut rows, mut breaks, mut wide) = (words.lines.len(), Vec::new(), words.widest());
         let room = 2.0 * (free.half - MARGIN);
+        let words = Words::of(label, Breaks::BesideFormulas);
+        let (words, allowed) = if words.longest() * height > room {
+            (Words::of(label, Breaks::Anywhere), Breaks::Anywhere)
+        } else {
+            (words, Breaks::BesideFormulas)
+        };
+        let (mut rows, mut breaks, mut wide) = (words.lines.len(), Vec::new(), words.widest());
         let most = match label.place {
             LabelPlace::Body { .. } => f64::INFINITY,
             LabelPlace::Corner(_) => MAX_BROKEN_HEIGHT * 2.0 * aspect,
@@ -54,7 +72,7 @@ impl Block {
             }
             (_, breaks, wide) = words.broken(high);
         }
-        Block { label: with_breaks(label, &breaks), height, rows, wide: wide * height }
+        Block { label: with_breaks(label, &breaks, allowed), height, rows, wide: wide * height }
     }
 
     /// The height of all lines.
@@ -78,12 +96,12 @@ struct Words {
 }
 
 impl Words {
-    fn of(label: &Label) -> Words {
+    fn of(label: &Label, allowed: Breaks) -> Words {
         let text: String = label.text.iter().map(sample).collect();
         let text = adapted(label, text.into());
         let wide = |words: &str| lettering::width(words, label.typeface());
         let mut lines: Vec<Vec<f64>> = Vec::new();
-        for (separator, word) in parts(&text) {
+        for (separator, word) in parts(&text, allowed) {
             match (separator, lines.last_mut()) {
                 (Some(' '), Some(line)) => line.push(wide(word)),
                 _ => lines.push(vec![wide(word)]),
@@ -125,23 +143,27 @@ impl Words {
     }
 }
 
-/// Returns the bytes of a set text at which it can be split: its line breaks, and its spaces except of those between a number and a unit.
-/// `follows` tells whether a number stands right before the text.
-fn splits(text: &str, follows: bool) -> impl Iterator<Item = usize> {
+/// Returns the bytes of a set text at which it can be split: its line breaks, and the spaces that are `allowed`. `follows` tells whether a
+/// number stands right before the text.
+fn splits(text: &str, follows: bool, allowed: Breaks) -> impl Iterator<Item = usize> {
     lettering::spaces(text).filter(move |at| {
-        let is_after_number = match lettering::without_marks(&text[..*at]) {
+        let (before, after) =
+            (lettering::without_marks(&text[..*at]), lettering::without_marks(&text[at + 1..]));
+        let is_after_number = match before {
             "" => follows,
             before => before.ends_with(|c: char| c.is_numeric()),
         };
-        let is_before_word = lettering::without_marks(&text[at + 1..]).starts_with(char::is_alphabetic);
-        text[*at..].starts_with('\n') || !(is_after_number && is_before_word)
+        let is_in_formula =
+            allowed == Breaks::BesideFormulas && (before.ends_with(SIGNS) || after.starts_with(SIGNS));
+        let is_before_unit = is_after_number && after.starts_with(char::is_alphabetic);
+        text[*at..].starts_with('\n') || !(is_before_unit || is_in_formula)
     })
 }
 
 /// Splits a set text where it can be. Returns each part with the space or line break before it, if any.
-fn parts(text: &str) -> Vec<(Option<char>, &str)> {
+fn parts(text: &str, allowed: Breaks) -> Vec<(Option<char>, &str)> {
     let (mut parts, mut begin, mut separator) = (Vec::new(), 0, None);
-    for at in splits(text, false) {
+    for at in splits(text, false, allowed) {
         parts.push((separator, &text[begin..at]));
         // Both are one byte long.
         (begin, separator) = (at + 1, text[at..].chars().next());
@@ -151,7 +173,7 @@ fn parts(text: &str) -> Vec<(Option<char>, &str)> {
 }
 
 /// Replaces spaces of a label, given by their numbers, by line breaks.
-fn with_breaks(label: &Label, breaks: &[usize]) -> Label {
+fn with_breaks(label: &Label, breaks: &[usize], allowed: Breaks) -> Label {
     let mut number = 0;
     let mut broken = label.clone();
     if breaks.is_empty() {
@@ -162,7 +184,8 @@ fn with_breaks(label: &Label, breaks: &[usize]) -> Label {
         let ends_with_number = sample(piece).ends_with(|c: char| c.is_numeric());
         let follows = std::mem::replace(&mut follows, ends_with_number);
         let Piece::Words(words) = piece else { continue };
-        let spaces: Vec<usize> = splits(words, follows).filter(|at| words[*at..].starts_with(' ')).collect();
+        let spaces: Vec<usize> =
+            splits(words, follows, allowed).filter(|at| words[*at..].starts_with(' ')).collect();
         for at in spaces {
             if breaks.contains(&number) {
                 words.replace_range(at..=at, "\n");
@@ -218,6 +241,19 @@ mod tests {
             let said = lines(&block(text, [width, 180]));
             assert!(said.iter().all(|line| !line.starts_with("m/s")), "{said:?}");
         }
+    }
+
+    #[test]
+    fn a_formula_stays_in_one_line() {
+        for width in (200..400).step_by(10) {
+            let text = "text = 'Two masses: m₁ = 2 kg and m₂ = 3 kg, v = ${ball.speed:.1} m/s at the end'";
+            let said = lines(&block(text, [width, 180]));
+            let is_torn = |line: &String| line.starts_with('=') || line.ends_with('=');
+            assert!(said.len() > 1 && !said.iter().any(is_torn), "{said:?}");
+        }
+        let chain = "a = b = c = d = e = f = g = h = i = j = k = l = m = n = o = p";
+        let said = block(&format!("text = '{chain}'"), [320, 180]);
+        assert!(said.rows > 1, "a formula too long for the picture is broken: {said:?}");
     }
 
     #[test]
