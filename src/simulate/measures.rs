@@ -455,6 +455,7 @@ fn of_body(body: &Body, at: &BodySnapshot, measure: BodyMeasure) -> f64 {
         BodyMeasure::ForceMagnitude => at.force.length(),
         BodyMeasure::Force(axis) => at.force[axis],
         BodyMeasure::AngularSpeed => at.angular_velocity.length(),
+        BodyMeasure::AngularVelocity(axis) => at.angular_velocity[axis],
         BodyMeasure::Mass => mass,
         BodyMeasure::Momentum => mass * at.velocity.length(),
         BodyMeasure::MomentumComponent(axis) => mass * at.velocity[axis],

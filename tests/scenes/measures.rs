@@ -168,6 +168,10 @@ fn each_measure_has_one_value_in_labels_plots_and_tables() {
     // The values are no accident: the ball has fallen 0.3 m, has rebounded once, and still turns.
     assert_eq!(value("ball.impacts"), 1.0);
     assert!(value("ball.spin") > 1.0 && value("joint.hook.motor") != 0.0);
+    let of_ball = glam::DVec3::from_array(["ball.wx", "ball.wy", "ball.wz"].map(value));
+    assert!((of_ball.length() - value("ball.spin")).abs() < 1e-9, "{of_ball}");
+    // Nothing turns the atoms, so each keeps its angular velocity.
+    assert!((value("sum(gas.wx)") - 3.0).abs() < 1e-9 && (value("sum(gas.wz)") - 3.0).abs() < 1e-9);
 
     // The distance is the height of the ball, and the tangent of the angle is that of the way from the hook of the spring to the bob.
     assert!((value("distance.h") - value("ball.y").abs()).abs() < 1e-8);

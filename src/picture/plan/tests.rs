@@ -345,6 +345,10 @@ fn names_stand_at_the_ends_of_curves() {
     let plot = plan(&format!("y = 't'\nnames = '{long}'\nwidth = 0.2"));
     let above = plot.texts.iter().find(|text| text.says.starts_with("a name")).unwrap();
     assert!(above.x - plot.left < 0.3 * plot.size[0], "{above:?}");
+    // A curve that ends early has no end beside its name.
+    let plot = plan("y = ['t', '1 + 0/(t < 1)']\nnames = ['long', 'short']");
+    let above = plot.texts.iter().find(|text| text.says == "long").unwrap();
+    assert!(above.x - plot.left < 0.3 * plot.size[0], "{above:?}");
 }
 
 /// The arrow of a force shows this force alone: that of drag is −c v, whatever else acts on the ball.

@@ -1,14 +1,26 @@
 //! Names at the right ends of curves.
 
 use super::PlannedCurve;
+use crate::picture::occupancy::Rectangle;
 
-/// Returns the height at which each curve ends on the right. `None` for a curve without points.
-pub(super) fn heights(curves: &[PlannedCurve]) -> Vec<Option<f64>> {
-    let end = |curve: &PlannedCurve| {
+/// A curve that ends farther from the right edge of its plot, as a part of the plot's width, has no name there: nobody would see which name
+/// belongs to which curve.
+const MAX_DISTANCE_FROM_EDGE: f64 = 0.1;
+
+/// Returns the height at which each curve ends on the right: `None` for a curve without points. The whole result is `None` if a curve ends
+/// far from the right edge of the plot, which takes the `area`.
+pub(super) fn heights(curves: &[PlannedCurve], area: &Rectangle) -> Option<Vec<Option<f64>>> {
+    let nearest = area.right - MAX_DISTANCE_FROM_EDGE * (area.right - area.left);
+    let mut heights = Vec::new();
+    for curve in curves {
         let points = curve.points.iter().filter_map(|point| point.at);
-        points.max_by(|one, other| one[0].total_cmp(&other[0])).map(|at| at[1])
-    };
-    curves.iter().map(end).collect()
+        let end = points.max_by(|one, other| one[0].total_cmp(&other[0]));
+        if end.is_some_and(|[x, _]| x < nearest) {
+            return None;
+        }
+        heights.push(end.map(|[_, y]| y));
+    }
+    Some(heights)
 }
 
 /// Moves heights apart to at least `distance`, as little as possible, within `low` and `high`. `None` if they have no room there.

@@ -282,7 +282,8 @@ fn plan(
     let mut laid_out = Panel::new(plot, &legend, &scales, room);
     let mut curves = drawn(&laid_out);
     let names_at_ends = match legend.at_ends {
-        true => laid_out.0.names_at_ends(&names, &ends::heights(&curves)),
+        true => ends::heights(&curves, &laid_out.0.area)
+            .and_then(|heights| laid_out.0.names_at_ends(&names, &heights)),
         false => Some(Vec::new()),
     };
     // Names without room at the ends of the curves stand above the plot.

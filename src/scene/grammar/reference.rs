@@ -547,8 +547,8 @@ has a value for each of several copies, as inside `sum(…)`. It divides the ran
 shows how many copies are in each bin at the moment of the picture. A value at the edge of two bins is in the upper one. The axes of both hold for
 the whole run. In a run with more than 2 million values, the axis of a histogram is made from evenly chosen frames.
 
-`legend = \"ends\"` writes the names of curves at their right ends. Names that are too near to each other move apart. If they have no room, they stand
-above the plot, as without the key.
+`legend = \"ends\"` writes the names of curves at their right ends. Names that are too near to each other move apart. If they have no room, or if a
+curve ends far from the right edge, they stand above the plot, as without the key.
 
 A plot in a corner stands in front of the bodies. Several plots at the same place stand below each other and share the height of the picture.
 If words have too little room, the letters get smaller, and the longest words are cut. A plot that leaves the picture or covers another one

@@ -19,6 +19,8 @@ pub enum BodyMeasure {
     Force(usize),
     /// The magnitude of the body's angular velocity, rad/s.
     AngularSpeed,
+    /// A component of the body's angular velocity in world axes, rad/s. The number is the axis: 0 for x, 1 for y, 2 for z.
+    AngularVelocity(usize),
     /// The mass of the body, kg.
     Mass,
     /// The magnitude of the body's momentum, kg·m/s.
@@ -45,7 +47,7 @@ pub enum BodyMeasure {
 
 impl BodyMeasure {
     /// All quantities of a body, each with its name in formulas and its meaning.
-    pub const ALL: [(&'static str, BodyMeasure, &'static str); 31] = [
+    pub const ALL: [(&'static str, BodyMeasure, &'static str); 34] = [
         ("x", BodyMeasure::Location(0), "its location"),
         ("y", BodyMeasure::Location(1), "its location"),
         ("z", BodyMeasure::Location(2), "its location"),
@@ -62,6 +64,9 @@ impl BodyMeasure {
         ("fy", BodyMeasure::Force(1), "the sum of the forces on it"),
         ("fz", BodyMeasure::Force(2), "the sum of the forces on it"),
         ("spin", BodyMeasure::AngularSpeed, "the size of its angular velocity"),
+        ("wx", BodyMeasure::AngularVelocity(0), "its angular velocity"),
+        ("wy", BodyMeasure::AngularVelocity(1), "its angular velocity"),
+        ("wz", BodyMeasure::AngularVelocity(2), "its angular velocity"),
         ("mass", BodyMeasure::Mass, "its mass"),
         ("momentum", BodyMeasure::Momentum, "the size of its momentum"),
         ("px", BodyMeasure::MomentumComponent(0), "its momentum"),
@@ -105,7 +110,7 @@ impl BodyMeasure {
             | BodyMeasure::Force(_)
             | BodyMeasure::NormalForce
             | BodyMeasure::FrictionForce => "N",
-            BodyMeasure::AngularSpeed => "rad/s",
+            BodyMeasure::AngularSpeed | BodyMeasure::AngularVelocity(_) => "rad/s",
             BodyMeasure::Mass => "kg",
             BodyMeasure::Momentum | BodyMeasure::MomentumComponent(_) => "kg·m/s",
             BodyMeasure::Power => "W",
