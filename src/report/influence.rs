@@ -79,13 +79,10 @@ fn of_force(scene: &Scene, force: &ForceKind) -> OutsideInfluence {
             .fold(OutsideInfluence::NONE, OutsideInfluence::or)
     };
     match force {
-        ForceKind::Constant(constant) => when(
-            acts(&constant.bodies),
-            when(constant.force != DVec3::ZERO, OutsideInfluence::BOTH)
-                .or(OutsideInfluence::torque(constant.torque != DVec3::ZERO)),
-        ),
-        ForceKind::Drag(drag) => when(acts(&drag.bodies), OutsideInfluence::BOTH),
-        ForceKind::Lorentz(lorentz) => when(acts(&lorentz.bodies), OutsideInfluence::BOTH),
+        ForceKind::OnEach(force) => {
+            let [linear, angular] = force.changes_momenta();
+            when(acts(force.bodies()), OutsideInfluence { linear, angular })
+        }
         ForceKind::Formula { bodies, .. } => when(acts(bodies), OutsideInfluence::BOTH),
         ForceKind::Buoyancy { liquid, .. } => {
             when(liquid.bodies.iter().any(|(id, _)| is_moved(scene, *id)), OutsideInfluence::BOTH)

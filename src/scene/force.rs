@@ -5,8 +5,7 @@ use std::sync::Arc;
 use super::force_formula::FormulaLaw;
 use super::{Color, SpringLook};
 use crate::physics::{
-    Anchor, BodyId, Buoyancy, ConstantForce, Coulomb, Dipoles, Drag, Gravitation, J2, LennardJones, Lorentz,
-    Spring,
+    Anchor, BodyId, Buoyancy, Coulomb, Dipoles, ForceOnEach, Gravitation, J2, LennardJones, Spring,
 };
 
 /// A named force between bodies, on bodies, or on particles. The `force` key of a single body is part of that body instead.
@@ -25,16 +24,12 @@ pub struct Force {
 /// The kinds of forces. A [`BodyId`] is the index of a body in the scene.
 #[derive(Clone, Debug)]
 pub enum ForceKind {
-    /// A constant force and torque on each of several bodies.
-    Constant(ConstantForce),
-    /// Drag in air or in a liquid.
-    Drag(Drag),
+    /// A force on each of several bodies alone, such as drag.
+    OnEach(Arc<dyn ForceOnEach>),
     /// Newton's gravitation between all pairs of bodies, or between two groups.
     Gravitation(Gravitation),
     /// The Coulomb force between all pairs of charged bodies, or between two groups.
     Coulomb(Coulomb),
-    /// The Lorentz force in uniform electric and magnetic fields.
-    Lorentz(Lorentz),
     /// A force given by formulas.
     Formula {
         /// The bodies that the force acts on.
@@ -71,10 +66,8 @@ impl ForceKind {
             one.iter().chain(other.iter().flatten()).copied().collect()
         };
         let mut bodies: Vec<BodyId> = match self {
-            ForceKind::Constant(ConstantForce { bodies, .. })
-            | ForceKind::Drag(Drag { bodies, .. })
-            | ForceKind::Lorentz(Lorentz { bodies, .. })
-            | ForceKind::Formula { bodies, .. } => bodies.clone(),
+            ForceKind::OnEach(force) => force.bodies().to_vec(),
+            ForceKind::Formula { bodies, .. } => bodies.clone(),
             ForceKind::Gravitation(Gravitation { bodies, against, .. })
             | ForceKind::Coulomb(Coulomb { bodies, against, .. })
             | ForceKind::LennardJones(LennardJones { bodies, against, .. })

@@ -3,9 +3,7 @@
 use glam::DVec3;
 
 use super::particles::field;
-use crate::physics::{
-    BodyId, BodySnapshot, Coulomb, Dipoles, Gravitation, LennardJones, Lorentz, TestParticle, find,
-};
+use crate::physics::{BodyId, BodySnapshot, Coulomb, Dipoles, Gravitation, LennardJones, TestParticle, find};
 use crate::scene::{DrawnField, Force, ForceKind, Scene};
 
 /// A body that causes a field.
@@ -56,8 +54,8 @@ impl FieldSampler {
         let source = |body: &BodyId, strength: f64| FieldSource { body: body.index(), strength };
         let start = |body: &BodyId| &scene.bodies[body.index()].start;
         let (cause, sources) = match &force.kind {
-            ForceKind::Lorentz(Lorentz { magnetic, .. }) if drawn.is_magnetic => {
-                (Cause::Uniform(*magnetic), Vec::new())
+            ForceKind::OnEach(force) if drawn.is_magnetic => {
+                (Cause::Uniform(force.magnetic_field()?), Vec::new())
             }
             ForceKind::Dipoles(dipoles) => {
                 let bodies = dipoles.bodies.iter().chain(dipoles.against.iter().flatten());

@@ -10,9 +10,8 @@ use glam::DVec3;
 
 use super::{Bounds, Frame};
 use crate::physics::{
-    BodyId, BodySnapshot, Buoyancy, Cloud, ConstantForce, Coulomb, Drag, Field, FormulaForce, Gravitation,
-    J2, LennardJones, Lorentz, Method, Obstacle, Particle, RecordedMotion, RigidBody, Scenery, Shape,
-    UniformGravity, World, find,
+    BodyId, BodySnapshot, Buoyancy, Cloud, Coulomb, Field, FormulaForce, Gravitation, J2, LennardJones,
+    Method, Obstacle, Particle, RecordedMotion, RigidBody, Scenery, Shape, UniformGravity, World, find,
 };
 use crate::scene::{Body, Emitter, Force, ForceKind, Scene};
 
@@ -257,18 +256,9 @@ pub(super) fn field(scene: &Scene, force: &Force, radius: f64) -> Option<Field> 
         bodies.iter().map(|body| (*body, scene.bodies[body.index()].start)).collect()
     };
     Some(match &force.kind {
-        ForceKind::Constant(ConstantForce { force, .. }) => {
-            // Torques have no effect on particles, which do not rotate.
-            let (force, torque) = (*force, DVec3::ZERO);
-            Field::new(move |bodies| Arc::new(ConstantForce { bodies, force, torque }))
-        }
-        ForceKind::Drag(Drag { linear, quadratic, wind, .. }) => {
-            let (linear, quadratic, wind) = (*linear, *quadratic, *wind);
-            Field::new(move |bodies| Arc::new(Drag { bodies, linear, quadratic, wind }))
-        }
-        ForceKind::Lorentz(Lorentz { electric, magnetic, .. }) => {
-            let (electric, magnetic) = (*electric, *magnetic);
-            Field::new(move |bodies| Arc::new(Lorentz { bodies, electric, magnetic }))
+        ForceKind::OnEach(force) => {
+            let force = force.clone();
+            Field::new(move |particles| force.on_particles(particles))
         }
         ForceKind::Gravitation(Gravitation { bodies, constant, softening, .. }) => {
             let (constant, softening) = (*constant, *softening);

@@ -1,9 +1,11 @@
 //! A force and a torque that are constant in time.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::super::BodyId;
-use super::{Force, Loads, Moment, share};
+use super::{Force, ForceOnEach, Loads, Moment, share};
 
 /// A constant force at the centre of mass, and a constant torque, on each of some bodies.
 ///
@@ -56,6 +58,21 @@ impl Force for ConstantForce {
         for i in self.bodies.iter().map(|body| body.index()) {
             share(-self.force.dot(moment.state.location[i]), [i], moment, shares);
         }
+    }
+}
+
+impl ForceOnEach for ConstantForce {
+    fn bodies(&self) -> &[BodyId] {
+        &self.bodies
+    }
+
+    fn on_particles(&self, particles: Vec<BodyId>) -> Arc<dyn Force> {
+        Arc::new(ConstantForce { bodies: particles, force: self.force, torque: DVec3::ZERO })
+    }
+
+    fn changes_momenta(&self) -> [bool; 2] {
+        let pushes = self.force != DVec3::ZERO;
+        [pushes, pushes || self.torque != DVec3::ZERO]
     }
 }
 

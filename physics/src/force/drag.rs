@@ -1,9 +1,11 @@
 //! Drag: the resistance of a fluid.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::super::{BodyId, WorkAccount};
-use super::{Force, Loads, Moment};
+use super::{Force, ForceOnEach, Loads, Moment};
 
 /// Drag on each of some bodies, F = −(c₁ + c₂ |u|) u, where u = v − w is the velocity relative to the fluid.
 ///
@@ -47,6 +49,16 @@ impl Force for Drag {
 
     fn potential(&self, _: &Moment) -> f64 {
         0.0
+    }
+}
+
+impl ForceOnEach for Drag {
+    fn bodies(&self) -> &[BodyId] {
+        &self.bodies
+    }
+
+    fn on_particles(&self, particles: Vec<BodyId>) -> Arc<dyn Force> {
+        Arc::new(Drag { bodies: particles, ..*self })
     }
 }
 

@@ -1,9 +1,11 @@
 //! The Lorentz force in uniform electric and magnetic fields.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::super::BodyId;
-use super::{Force, Loads, Moment, share};
+use super::{Force, ForceOnEach, Loads, Moment, share};
 
 /// The Lorentz force F = q (E + v × B) on each of some charged bodies, in fields that are uniform and constant.
 ///
@@ -43,6 +45,28 @@ impl Force for Lorentz {
             let energy = -moment.model.charge()[i] * self.electric.dot(moment.state.location[i]);
             share(energy, [i], moment, shares);
         }
+    }
+}
+
+impl ForceOnEach for Lorentz {
+    fn bodies(&self) -> &[BodyId] {
+        &self.bodies
+    }
+
+    fn on_particles(&self, particles: Vec<BodyId>) -> Arc<dyn Force> {
+        Arc::new(Lorentz { bodies: particles, ..*self })
+    }
+
+    fn depends_on_charge(&self) -> bool {
+        true
+    }
+
+    fn magnetic_field(&self) -> Option<DVec3> {
+        Some(self.magnetic)
+    }
+
+    fn has_levels(&self) -> bool {
+        true
     }
 }
 

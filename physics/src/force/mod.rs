@@ -26,6 +26,7 @@ mod gravity;
 mod j2;
 mod lennard_jones;
 mod lorentz;
+mod on_each;
 mod pairs;
 mod spring;
 mod tree;
@@ -41,6 +42,7 @@ pub use gravity::UniformGravity;
 pub use j2::J2;
 pub use lennard_jones::LennardJones;
 pub use lorentz::Lorentz;
+pub use on_each::ForceOnEach;
 pub use spring::Spring;
 
 use std::ops::Range;

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::physics::{Coulomb, Dipoles, Gravitation, J2, Lorentz};
+use crate::physics::{Coulomb, Dipoles, Gravitation, J2};
 use crate::scene::grammar::KeySpec;
 use crate::scene::grammar::bodies;
 use crate::scene::{Body, Force, ForceKind};
@@ -22,8 +22,8 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
             ForceKind::Coulomb(Coulomb { bodies, against, .. }) => {
                 bodies.iter().chain(against.iter().flatten()).for_each(|body| electric[body.index()] = true);
             }
-            ForceKind::Lorentz(Lorentz { bodies, .. }) => {
-                bodies.iter().for_each(|body| electric[body.index()] = true);
+            ForceKind::OnEach(force) => {
+                force.bodies().iter().for_each(|body| electric[body.index()] |= force.depends_on_charge());
             }
             ForceKind::Formula { bodies, law } => {
                 bodies.iter().for_each(|body| electric[body.index()] |= law.depends_on_charge());
@@ -34,11 +34,7 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
             ForceKind::J2(J2 { planet, bodies, .. }) => {
                 bodies.iter().chain([planet]).for_each(|body| attracts[body.index()] = true);
             }
-            ForceKind::Constant(_)
-            | ForceKind::Drag(_)
-            | ForceKind::LennardJones(_)
-            | ForceKind::Buoyancy { .. }
-            | ForceKind::Spring { .. } => {}
+            ForceKind::LennardJones(_) | ForceKind::Buoyancy { .. } | ForceKind::Spring { .. } => {}
         }
     }
     for (i, (table, body)) in root.bodies().zip(bodies).enumerate() {

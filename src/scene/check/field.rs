@@ -47,12 +47,16 @@ fn check(view: &View<'_>, drawn: &DrawnField, force: &ForceKind, context: &mut C
         }
         _ => {}
     }
-    if drawn.is_magnetic && !matches!(force, ForceKind::Lorentz(_) | ForceKind::Dipoles(_)) {
+    let has_magnetic_field = match force {
+        ForceKind::OnEach(force) => force.magnetic_field().is_some(),
+        force => matches!(force, ForceKind::Dipoles(_)),
+    };
+    if drawn.is_magnetic && !has_magnetic_field {
         let label = "only a `lorentz` force and magnets have one";
         refuse(view.span(&field::MAGNETIC), "this force has no magnetic field", label);
     } else if drawn.style == FieldStyle::Levels {
         let has_potential = match force {
-            ForceKind::Drag(_) | ForceKind::Constant(_) => false,
+            ForceKind::OnEach(force) => force.has_levels() && !is_magnetic,
             ForceKind::Formula { law, .. } => law.has_potential(),
             _ => !is_magnetic,
         };

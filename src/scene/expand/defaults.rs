@@ -108,7 +108,7 @@ mod tests {
         assert!(
             matches!(&scene.forces[0].kind, ForceKind::Spring { links, .. } if links[0].stiffness == 7.0)
         );
-        assert!(matches!(scene.forces[1].kind, ForceKind::Drag(_)));
+        assert!(matches!(scene.forces[1].kind, ForceKind::OnEach(_)));
     }
 
     #[test]

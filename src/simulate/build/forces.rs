@@ -8,11 +8,9 @@ use crate::scene::ForceKind;
 /// Returns a force of a scene as forces of a world. A chain of springs gives one force for each spring.
 pub(crate) fn forces(kind: &ForceKind) -> Vec<Arc<dyn Force>> {
     match kind {
-        ForceKind::Constant(constant) => vec![Arc::new(constant.clone())],
-        ForceKind::Drag(drag) => vec![Arc::new(drag.clone())],
+        ForceKind::OnEach(force) => vec![force.clone()],
         ForceKind::Gravitation(gravitation) => vec![Arc::new(gravitation.clone())],
         ForceKind::Coulomb(coulomb) => vec![Arc::new(coulomb.clone())],
-        ForceKind::Lorentz(lorentz) => vec![Arc::new(lorentz.clone())],
         ForceKind::Formula { bodies, law } => vec![Arc::new(FormulaForce::new(bodies.clone(), law.clone()))],
         ForceKind::LennardJones(lennard_jones) => vec![Arc::new(lennard_jones.clone())],
         ForceKind::Buoyancy { liquid, .. } => vec![Arc::new(liquid.clone())],

@@ -87,7 +87,8 @@ impl Falls {
         let gravity = scene.simulation.gravity;
         let has_ground = scene.environment.ground.as_ref().is_some_and(|ground| ground.height.is_none());
         let is_vertical = gravity.y < 0.0 && gravity.x == 0.0 && gravity.z == 0.0;
-        let is_plain = |kind: &ForceKind| matches!(kind, ForceKind::Constant(_) | ForceKind::Drag(_));
+        let is_plain =
+            |kind: &ForceKind| matches!(kind, ForceKind::OnEach(force) if !force.depends_on_charge());
         // Joints and other forces may hold bodies.
         let is_held = !scene.joints.is_empty() || !scene.forces.iter().all(|force| is_plain(&force.kind));
         let is_watched = has_ground && is_vertical && !is_held && scene.simulation.contacts.is_none();

@@ -7,6 +7,7 @@ mod pairs;
 mod spring;
 
 use std::collections::HashSet;
+use std::sync::Arc;
 
 use super::view::View;
 use super::{Context, showing};
@@ -145,21 +146,21 @@ fn chosen<'a>(force: &View<'a>) -> Option<(&'static Kind, View<'a>)> {
 
 impl Reader<'_, '_> {
     fn constant(&mut self, view: &View<'_>) -> Option<ForceKind> {
-        Some(ForceKind::Constant(ConstantForce {
+        Some(ForceKind::OnEach(Arc::new(ConstantForce {
             bodies: self.movable(view),
             force: view.get(&constant::FORCE),
             torque: view.get(&constant::TORQUE),
-        }))
+        })))
     }
 
     fn drag(&mut self, view: &View<'_>) -> Option<ForceKind> {
         self.needs_one_of(view, &[&drag::LINEAR.spec, &drag::QUADRATIC.spec]);
-        Some(ForceKind::Drag(Drag {
+        Some(ForceKind::OnEach(Arc::new(Drag {
             bodies: self.movable(view),
             linear: view.get(&drag::LINEAR),
             quadratic: view.get(&drag::QUADRATIC),
             wind: view.get(&drag::WIND),
-        }))
+        })))
     }
 
     fn gravitation(&mut self, view: &View<'_>) -> Option<ForceKind> {
@@ -190,11 +191,11 @@ impl Reader<'_, '_> {
 
     fn lorentz(&mut self, view: &View<'_>) -> Option<ForceKind> {
         self.needs_one_of(view, &[&lorentz::ELECTRIC.spec, &lorentz::MAGNETIC.spec]);
-        Some(ForceKind::Lorentz(Lorentz {
+        Some(ForceKind::OnEach(Arc::new(Lorentz {
             bodies: self.charged(view),
             electric: view.get(&lorentz::ELECTRIC),
             magnetic: view.get(&lorentz::MAGNETIC),
-        }))
+        })))
     }
 
     /// Warns of a force that has none of the given keys. Such a force is zero.

@@ -208,8 +208,8 @@ fn forces_name_one_copy_or_many() {
          [force.points.spring]\nbetween = [[-1, 0, 0], { body = 'ball', at = [0, 0.1, 0] }, 'ball[1]']\nstiffness = 1\n",
     );
     let on = |force: usize| match &scene.forces[force].kind {
-        ForceKind::Drag(drag) => {
-            drag.bodies.iter().map(|body| &*scene.bodies[body.index()].name).collect::<Vec<_>>()
+        ForceKind::OnEach(drag) => {
+            drag.bodies().iter().map(|body| &*scene.bodies[body.index()].name).collect::<Vec<_>>()
         }
         _ => panic!("not a drag"),
     };
