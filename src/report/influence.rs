@@ -72,12 +72,6 @@ fn of_contacts(scene: &Scene) -> OutsideInfluence {
 
 fn of_force(scene: &Scene, force: &ForceKind) -> OutsideInfluence {
     let acts = |bodies: &[BodyId]| bodies.iter().any(|id| is_moved(scene, *id));
-    let between = |one: &[BodyId], other: &Option<Vec<BodyId>>| {
-        let bodies = one.iter().chain(other.iter().flatten());
-        bodies
-            .map(|id| of_central(scene, Anchor::centre(*id)))
-            .fold(OutsideInfluence::NONE, OutsideInfluence::or)
-    };
     match force {
         ForceKind::OnEach(force) => {
             let [linear, angular] = force.changes_momenta();
@@ -87,9 +81,11 @@ fn of_force(scene: &Scene, force: &ForceKind) -> OutsideInfluence {
         ForceKind::Buoyancy { liquid, .. } => {
             when(liquid.bodies.iter().any(|(id, _)| is_moved(scene, *id)), OutsideInfluence::BOTH)
         }
-        ForceKind::Gravitation(gravitation) => between(&gravitation.bodies, &gravitation.against),
-        ForceKind::Coulomb(coulomb) => between(&coulomb.bodies, &coulomb.against),
-        ForceKind::LennardJones(atoms) => between(&atoms.bodies, &atoms.against),
+        ForceKind::Between(_) => force
+            .bodies()
+            .into_iter()
+            .map(|id| of_central(scene, Anchor::centre(id)))
+            .fold(OutsideInfluence::NONE, OutsideInfluence::or),
         ForceKind::Dipoles(dipoles) => {
             let bodies = dipoles.bodies.iter().chain(dipoles.against.iter().flatten());
             let held = bodies.copied().any(|id| !is_moved(scene, id));

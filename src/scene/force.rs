@@ -4,9 +4,7 @@ use std::sync::Arc;
 
 use super::force_formula::FormulaLaw;
 use super::{Color, SpringLook};
-use crate::physics::{
-    Anchor, BodyId, Buoyancy, Coulomb, Dipoles, ForceOnEach, Gravitation, J2, LennardJones, Spring,
-};
+use crate::physics::{Anchor, BodyId, Buoyancy, Dipoles, ForceBetween, ForceOnEach, J2, Spring};
 
 /// A named force between bodies, on bodies, or on particles. The `force` key of a single body is part of that body instead.
 #[derive(Clone, Debug)]
@@ -26,10 +24,8 @@ pub struct Force {
 pub enum ForceKind {
     /// A force on each of several bodies alone, such as drag.
     OnEach(Arc<dyn ForceOnEach>),
-    /// Newton's gravitation between all pairs of bodies, or between two groups.
-    Gravitation(Gravitation),
-    /// The Coulomb force between all pairs of charged bodies, or between two groups.
-    Coulomb(Coulomb),
+    /// A force between pairs of bodies, such as gravitation.
+    Between(Arc<dyn ForceBetween>),
     /// A force given by formulas.
     Formula {
         /// The bodies that the force acts on.
@@ -37,8 +33,6 @@ pub enum ForceKind {
         /// The formulas of the force and its potential.
         law: Arc<FormulaLaw>,
     },
-    /// The Lennard-Jones force between neutral atoms, for all pairs closer than the cutoff distance.
-    LennardJones(LennardJones),
     /// Buoyancy in a liquid.
     Buoyancy {
         /// The liquid, and the bodies in it.
@@ -62,18 +56,16 @@ pub enum ForceKind {
 impl ForceKind {
     /// Returns the bodies that the force acts on, each once, in ascending order. Some of them may be fixed.
     pub fn bodies(&self) -> Vec<BodyId> {
-        let both = |one: &[BodyId], other: &Option<Vec<BodyId>>| {
-            one.iter().chain(other.iter().flatten()).copied().collect()
+        let both = |one: &[BodyId], other: Option<&[BodyId]>| {
+            one.iter().chain(other.into_iter().flatten()).copied().collect()
         };
         let mut bodies: Vec<BodyId> = match self {
             ForceKind::OnEach(force) => force.bodies().to_vec(),
             ForceKind::Formula { bodies, .. } => bodies.clone(),
-            ForceKind::Gravitation(Gravitation { bodies, against, .. })
-            | ForceKind::Coulomb(Coulomb { bodies, against, .. })
-            | ForceKind::LennardJones(LennardJones { bodies, against, .. })
-            | ForceKind::Dipoles(Dipoles { bodies, against, .. }) => both(bodies, against),
+            ForceKind::Between(force) => both(force.bodies(), force.against()),
+            ForceKind::Dipoles(Dipoles { bodies, against, .. }) => both(bodies, against.as_deref()),
             ForceKind::Buoyancy { liquid, .. } => liquid.bodies.iter().map(|(body, _)| *body).collect(),
-            ForceKind::J2(J2 { planet, bodies, .. }) => both(bodies, &Some(vec![*planet])),
+            ForceKind::J2(J2 { planet, bodies, .. }) => both(bodies, Some(&[*planet])),
             ForceKind::Spring { links, .. } => {
                 links.iter().flat_map(|link| link.between).filter_map(Anchor::body).collect()
             }

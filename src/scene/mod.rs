@@ -380,7 +380,9 @@ impl Scene {
     /// Returns true if a force is computed with a tree of bodies. The potential energy is then computed with the same tree.
     pub fn has_tree(&self) -> bool {
         let of_tree = |force: &Force| match &force.kind {
-            ForceKind::Gravitation(gravitation) => gravitation.opening_angle.is_some(),
+            ForceKind::Between(force) => {
+                force.gravitation().is_some_and(|gravitation| gravitation.opening_angle.is_some())
+            }
             _ => false,
         };
         self.forces.iter().any(of_tree)

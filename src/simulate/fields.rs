@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::particles::field;
-use crate::physics::{BodyId, BodySnapshot, Coulomb, Dipoles, Gravitation, LennardJones, TestParticle, find};
-use crate::scene::{DrawnField, Force, ForceKind, Scene};
+use super::particles::{Sources, field};
+use crate::physics::{BodyId, BodySnapshot, Dipoles, TestParticle, find};
+use crate::scene::{DrawnField, ForceKind, Scene};
 
 /// A body that causes a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,20 +13,6 @@ pub struct FieldSource {
     pub body: usize,
     /// The strength of the source: positive where field lines begin, negative where they end. A magnet has 0, since its lines are closed.
     pub strength: f64,
-}
-
-/// Returns a force whose field has all its bodies as sources, of both groups if there are two.
-fn from_all(force: &Force) -> Force {
-    let mut all = force.clone();
-    match &mut all.kind {
-        ForceKind::Gravitation(Gravitation { bodies, against, .. })
-        | ForceKind::Coulomb(Coulomb { bodies, against, .. })
-        | ForceKind::LennardJones(LennardJones { bodies, against, .. }) => {
-            bodies.extend(against.take().into_iter().flatten());
-        }
-        _ => {}
-    }
-    all
 }
 
 /// Computes the field of a force at points of space.
@@ -63,16 +49,12 @@ impl FieldSampler {
                 (Cause::Magnets(dipoles.clone(), Vec::new()), sources)
             }
             kind => {
-                let all = from_all(force);
-                let cause = Cause::Force(Box::new(TestParticle::new(&field(scene, &all, 0.0)?)));
+                let field = field(scene, force, 0.0, Sources::BothGroups)?;
+                let cause = Cause::Force(Box::new(TestParticle::new(&field)));
                 let sources = match kind {
-                    ForceKind::Coulomb(Coulomb { constant, .. }) => {
-                        // Two positive charges attract each other if the constant is negative.
-                        let strength = |body: &BodyId| start(body).charge * constant.signum();
-                        all.kind.bodies().iter().map(|body| source(body, strength(body))).collect()
-                    }
-                    ForceKind::Gravitation(Gravitation { .. }) => {
-                        all.kind.bodies().iter().map(|body| source(body, -start(body).mass)).collect()
+                    ForceKind::Between(between) => {
+                        let of = |body: &BodyId| source(body, between.source_strength(start(body)));
+                        force.kind.bodies().iter().map(of).filter(|source| source.strength != 0.0).collect()
                     }
                     _ => Vec::new(),
                 };
@@ -139,7 +121,7 @@ mod tests {
             [body.b]\nshape.sphere.radius = 0.1\ncharge = -1e-6\nlocation = [2, 0, 0]\n
             [force.q.coulomb]\n[field.e]\nforce = 'q'",
         );
-        let k = Coulomb::CONSTANT;
+        let k = crate::physics::Coulomb::CONSTANT;
         let found = field.at(DVec3::new(3.0, 0.0, 0.0));
         let expected = k * (3e-6 / 9.0 - 1e-6);
         assert!((found.x - expected).abs() < 1e-9 * expected.abs() && found.y == 0.0, "{found}");

@@ -10,8 +10,8 @@ use glam::DVec3;
 
 use super::{Bounds, Frame};
 use crate::physics::{
-    BodyId, BodySnapshot, Buoyancy, Cloud, Coulomb, Field, FormulaForce, Gravitation, J2, LennardJones,
-    Method, Obstacle, Particle, RecordedMotion, RigidBody, Scenery, Shape, UniformGravity, World, find,
+    BodyId, BodySnapshot, Buoyancy, Cloud, Field, FormulaForce, J2, Method, Obstacle, Particle,
+    RecordedMotion, RigidBody, Scenery, Shape, UniformGravity, World, find,
 };
 use crate::scene::{Body, Emitter, Force, ForceKind, Scene};
 
@@ -246,13 +246,22 @@ fn fields(scene: &Scene, emitter: usize) -> Vec<Field> {
         fields.push(Field::new(move |_| Arc::new(UniformGravity { acceleration })));
     }
     let acting = scene.forces.iter().filter(|force| force.emitters.contains(&emitter));
-    fields.extend(acting.filter_map(|force| field(scene, force, scene.emitters[emitter].radius)));
+    fields.extend(
+        acting.filter_map(|force| field(scene, force, scene.emitters[emitter].radius, Sources::FirstGroup)),
+    );
     fields
 }
 
+/// The bodies whose force between pairs acts on particles.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Sources {
+    FirstGroup,
+    BothGroups,
+}
+
 /// Converts a force into a field that acts on particles with this radius (m). `None` for forces that act on bodies only.
-pub(super) fn field(scene: &Scene, force: &Force, radius: f64) -> Option<Field> {
-    let sources = |bodies: &[BodyId]| -> Vec<(BodyId, RigidBody)> {
+pub(super) fn field(scene: &Scene, force: &Force, radius: f64, sources: Sources) -> Option<Field> {
+    let started = |bodies: &[BodyId]| -> Vec<(BodyId, RigidBody)> {
         bodies.iter().map(|body| (*body, scene.bodies[body.index()].start)).collect()
     };
     Some(match &force.kind {
@@ -260,29 +269,17 @@ pub(super) fn field(scene: &Scene, force: &Force, radius: f64) -> Option<Field> 
             let force = force.clone();
             Field::new(move |particles| force.on_particles(particles))
         }
-        ForceKind::Gravitation(Gravitation { bodies, constant, softening, .. }) => {
-            let (constant, softening) = (*constant, *softening);
-            Field::from_bodies(sources(bodies), move |bodies, against| {
-                // With an opening angle, forces are computed from a tree, and the force on a particle would depend on the other particles.
-                let (against, opening_angle) = (Some(against), None);
-                Arc::new(Gravitation { bodies, against, constant, softening, opening_angle })
-            })
-        }
-        ForceKind::Coulomb(Coulomb { bodies, constant, softening, .. }) => {
-            let (constant, softening) = (*constant, *softening);
-            Field::from_bodies(sources(bodies), move |bodies, against| {
-                Arc::new(Coulomb { bodies, against: Some(against), constant, softening })
+        ForceKind::Between(force) => {
+            let mut all = force.bodies().to_vec();
+            all.extend(force.against().into_iter().flatten().filter(|_| sources == Sources::BothGroups));
+            let force = force.clone();
+            Field::from_bodies(started(&all), move |particles, sources| {
+                force.on_particles(particles, sources)
             })
         }
         ForceKind::Formula { law, .. } => {
             let law = law.clone();
             Field::new(move |bodies| Arc::new(FormulaForce::new(bodies, law.clone())))
-        }
-        ForceKind::LennardJones(LennardJones { bodies, epsilon, sigma, cutoff, smooth, .. }) => {
-            let (epsilon, sigma, cutoff, smooth) = (*epsilon, *sigma, *cutoff, *smooth);
-            Field::from_bodies(sources(bodies), move |bodies, against| {
-                Arc::new(LennardJones { bodies, against: Some(against), epsilon, sigma, cutoff, smooth })
-            })
         }
         ForceKind::Buoyancy { liquid: Buoyancy { density, level, gravity, .. }, .. } => {
             let (density, level, gravity) = (*density, *level, *gravity);
@@ -294,7 +291,7 @@ pub(super) fn field(scene: &Scene, force: &Force, radius: f64) -> Option<Field> 
         ForceKind::J2(j2) => {
             let J2 { planet, .. } = *j2;
             let j2 = J2 { bodies: Vec::new(), ..j2.clone() };
-            Field::from_bodies(sources(&[planet]), move |bodies, planet| {
+            Field::from_bodies(started(&[planet]), move |bodies, planet| {
                 Arc::new(J2 { planet: planet.first().copied().unwrap_or(j2.planet), bodies, ..j2.clone() })
             })
         }

@@ -1,8 +1,10 @@
 //! Coulomb's force between electric charges.
 
-use super::super::BodyId;
+use std::sync::Arc;
+
+use super::super::{BodyId, RigidBody};
 use super::pairs::{self, Pairs};
-use super::{Force, Loads, Moment};
+use super::{Force, ForceBetween, Loads, Moment};
 
 /// Coulomb's force between any two of the listed bodies: they repel each other with k q₁ q₂ r / (r² + ε²)^(3/2), or attract each other if
 /// their charges have different signs. The potential is k q₁ q₂ / √(r² + ε²).
@@ -60,6 +62,29 @@ impl Force for Coulomb {
 
     fn pairs(&self) -> u64 {
         pairs::count(&self.bodies, self.against.as_deref())
+    }
+}
+
+impl ForceBetween for Coulomb {
+    fn bodies(&self) -> &[BodyId] {
+        &self.bodies
+    }
+
+    fn against(&self) -> Option<&[BodyId]> {
+        self.against.as_deref()
+    }
+
+    fn on_particles(&self, particles: Vec<BodyId>, sources: Vec<BodyId>) -> Arc<dyn Force> {
+        Arc::new(Coulomb { bodies: particles, against: Some(sources), ..*self })
+    }
+
+    fn depends_on_charge(&self) -> bool {
+        true
+    }
+
+    fn source_strength(&self, source: &RigidBody) -> f64 {
+        // Two positive charges attract each other if the constant is negative.
+        source.charge * self.constant.signum()
     }
 }
 

@@ -1,9 +1,11 @@
 //! Newton's gravitation between bodies.
 
-use super::super::BodyId;
+use std::sync::Arc;
+
+use super::super::{BodyId, RigidBody};
 use super::pairs::{self, Pairs};
 use super::tree::ByTree;
-use super::{Force, Loads, Moment};
+use super::{Force, ForceBetween, Loads, Moment};
 
 /// Newton's gravitation: any two of the listed bodies attract each other with G m₁ m₂ r / (r² + ε²)^(3/2). The potential is −G m₁ m₂ /
 /// √(r² + ε²).
@@ -96,6 +98,29 @@ impl Force for Gravitation {
         };
         let bodies = self.bodies.len() + self.against.as_ref().map_or(0, Vec::len);
         self.interactions(angle).saturating_mul(bodies as u64)
+    }
+}
+
+impl ForceBetween for Gravitation {
+    fn bodies(&self) -> &[BodyId] {
+        &self.bodies
+    }
+
+    fn against(&self) -> Option<&[BodyId]> {
+        self.against.as_deref()
+    }
+
+    fn on_particles(&self, particles: Vec<BodyId>, sources: Vec<BodyId>) -> Arc<dyn Force> {
+        // With an opening angle, forces are computed from a tree, and the force on a particle would depend on the other particles.
+        Arc::new(Gravitation { bodies: particles, against: Some(sources), opening_angle: None, ..*self })
+    }
+
+    fn depends_on_mass(&self) -> bool {
+        true
+    }
+
+    fn source_strength(&self, source: &RigidBody) -> f64 {
+        -source.mass
     }
 }
 

@@ -1,13 +1,13 @@
 //! The Lennard-Jones force between neutral atoms.
 
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::DVec3;
 
 use super::super::BodyId;
 use super::cells::Cells;
-use super::{Force, Loads, Moment, share};
+use super::{Force, ForceBetween, Loads, Moment, share};
 
 /// The Lennard-Jones force between bodies. Any two bodies that are nearer than the cutoff r_c have the potential U(r) = u(r) − u(r_c) with
 /// u = 4ε ((σ/r)¹² − (σ/r)⁶). They repel each other below 2^(1/6) σ, and attract each other beyond that distance.
@@ -215,6 +215,20 @@ impl Force for LennardJones {
 
     fn depends_on_motion(&self) -> bool {
         false
+    }
+}
+
+impl ForceBetween for LennardJones {
+    fn bodies(&self) -> &[BodyId] {
+        &self.bodies
+    }
+
+    fn against(&self) -> Option<&[BodyId]> {
+        self.against.as_deref()
+    }
+
+    fn on_particles(&self, particles: Vec<BodyId>, sources: Vec<BodyId>) -> Arc<dyn Force> {
+        Arc::new(LennardJones { bodies: particles, against: Some(sources), ..*self })
     }
 }
 

@@ -14,6 +14,7 @@
 //! potential is that of the same tree. The forces are not exactly its gradient, and the two forces of a pair are not exactly opposite. So
 //! energy, momentum and angular momentum drift by less than the error of the forces.
 
+mod between;
 mod buoyancy;
 mod cells;
 mod constant;
@@ -31,6 +32,7 @@ mod pairs;
 mod spring;
 mod tree;
 
+pub use between::ForceBetween;
 pub use buoyancy::Buoyancy;
 pub use constant::ConstantForce;
 pub use coulomb::Coulomb;

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::physics::{Coulomb, Dipoles, Gravitation, J2};
+use crate::physics::{Dipoles, J2};
 use crate::scene::grammar::KeySpec;
 use crate::scene::grammar::bodies;
 use crate::scene::{Body, Force, ForceKind};
@@ -16,12 +16,10 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
     let mut magnetic = vec![false; bodies.len()];
     for force in forces {
         match &force.kind {
-            ForceKind::Gravitation(Gravitation { bodies, against, .. }) => {
-                bodies.iter().chain(against.iter().flatten()).for_each(|body| attracts[body.index()] = true);
-            }
-            ForceKind::Coulomb(Coulomb { bodies, against, .. }) => {
-                bodies.iter().chain(against.iter().flatten()).for_each(|body| electric[body.index()] = true);
-            }
+            ForceKind::Between(between) => force.kind.bodies().iter().for_each(|body| {
+                attracts[body.index()] |= between.depends_on_mass();
+                electric[body.index()] |= between.depends_on_charge();
+            }),
             ForceKind::OnEach(force) => {
                 force.bodies().iter().for_each(|body| electric[body.index()] |= force.depends_on_charge());
             }
@@ -34,7 +32,7 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
             ForceKind::J2(J2 { planet, bodies, .. }) => {
                 bodies.iter().chain([planet]).for_each(|body| attracts[body.index()] = true);
             }
-            ForceKind::LennardJones(_) | ForceKind::Buoyancy { .. } | ForceKind::Spring { .. } => {}
+            ForceKind::Buoyancy { .. } | ForceKind::Spring { .. } => {}
         }
     }
     for (i, (table, body)) in root.bodies().zip(bodies).enumerate() {

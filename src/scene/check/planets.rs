@@ -42,8 +42,12 @@ pub(super) fn check(
     let mut attractions = 0;
     for (force_name, span, _) in root.named(&scene::FORCE) {
         let Some(force) = forces.iter().find(|force| force.name == force_name) else { continue };
-        match &force.kind {
-            ForceKind::Gravitation(gravitation) => {
+        let gravitation = match &force.kind {
+            ForceKind::Between(force) => force.gravitation(),
+            _ => None,
+        };
+        match gravitation {
+            Some(gravitation) => {
                 attractions += 1;
                 if attractions > 1 {
                     wrong(
@@ -66,7 +70,9 @@ pub(super) fn check(
                     );
                 }
             }
-            _ => wrong(Some(span), format!("`{name}` takes no force but gravitation, as `{force_name}` is")),
+            None => {
+                wrong(Some(span), format!("`{name}` takes no force but gravitation, as `{force_name}` is"));
+            }
         }
     }
     for ((body, _), span) in

@@ -9,10 +9,8 @@ use crate::scene::ForceKind;
 pub(crate) fn forces(kind: &ForceKind) -> Vec<Arc<dyn Force>> {
     match kind {
         ForceKind::OnEach(force) => vec![force.clone()],
-        ForceKind::Gravitation(gravitation) => vec![Arc::new(gravitation.clone())],
-        ForceKind::Coulomb(coulomb) => vec![Arc::new(coulomb.clone())],
+        ForceKind::Between(force) => vec![force.clone()],
         ForceKind::Formula { bodies, law } => vec![Arc::new(FormulaForce::new(bodies.clone(), law.clone()))],
-        ForceKind::LennardJones(lennard_jones) => vec![Arc::new(lennard_jones.clone())],
         ForceKind::Buoyancy { liquid, .. } => vec![Arc::new(liquid.clone())],
         ForceKind::Dipoles(dipoles) => vec![Arc::new(dipoles.clone())],
         ForceKind::J2(j2) => vec![Arc::new(j2.clone())],

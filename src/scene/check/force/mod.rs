@@ -169,7 +169,13 @@ impl Reader<'_, '_> {
         let constant = view.get(&gravitation::CONSTANT);
         // With an opening angle of 0, no Barnes–Hut tree is used: the force is the exact sum over all pairs of bodies.
         let opening_angle = view.get(&gravitation::OPENING_ANGLE).filter(|&angle| angle > 0.0);
-        Some(ForceKind::Gravitation(Gravitation { bodies, against, constant, softening, opening_angle }))
+        Some(ForceKind::Between(Arc::new(Gravitation {
+            bodies,
+            against,
+            constant,
+            softening,
+            opening_angle,
+        })))
     }
 
     fn coulomb(&mut self, view: &View<'_>) -> Option<ForceKind> {
@@ -177,7 +183,7 @@ impl Reader<'_, '_> {
         let all = self.bodies;
         let (bodies, against) = self.pairs(view, softening, |i| all[i].start.charge != 0.0);
         let constant = view.get(&coulomb::CONSTANT);
-        Some(ForceKind::Coulomb(Coulomb { bodies, against, constant, softening }))
+        Some(ForceKind::Between(Arc::new(Coulomb { bodies, against, constant, softening })))
     }
 
     fn lennard_jones(&mut self, view: &View<'_>) -> Option<ForceKind> {
@@ -186,7 +192,7 @@ impl Reader<'_, '_> {
         let (epsilon, sigma) = (view.get(&lennard_jones::EPSILON)?, view.get(&lennard_jones::SIGMA)?);
         let cutoff = view.get(&lennard_jones::CUTOFF).unwrap_or(LennardJones::CUTOFF * sigma);
         let smooth = view.get(&lennard_jones::SMOOTH);
-        Some(ForceKind::LennardJones(LennardJones { bodies, against, epsilon, sigma, cutoff, smooth }))
+        Some(ForceKind::Between(Arc::new(LennardJones { bodies, against, epsilon, sigma, cutoff, smooth })))
     }
 
     fn lorentz(&mut self, view: &View<'_>) -> Option<ForceKind> {
