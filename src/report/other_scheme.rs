@@ -9,7 +9,7 @@ use super::measure::ComparedBodies;
 use super::setting::Setting;
 use super::trials::factor;
 use crate::physics::{METHODS, Method, Motor, Snapshot, suitable_step};
-use crate::scene::{ContactLaw, JointKind, Scene, is_by_moreau, thinnest};
+use crate::scene::{ContactLaw, Scene, is_by_moreau, thinnest};
 
 /// The comparison of a run with contacts with the same run under the other contact law.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -258,13 +258,10 @@ fn refused(scene: &Scene, law: ContactLaw) -> Option<&'static str> {
         return Some("it has no rolling friction");
     }
     scene.joints.iter().find_map(|joint| {
-        let motor = match &joint.kind {
-            JointKind::Hinge(hinge) => &hinge.freedom.motor,
-            JointKind::Slider(slider) => &slider.freedom.motor,
-            JointKind::Pulley(_) => return Some("it has no pulleys"),
-            JointKind::Gear(_) => return Some("it has no gears"),
-            _ => return None,
-        };
-        matches!(motor, Some(Motor::Value(_))).then_some("it has no motors that keep a value exactly")
+        if joint.kind.unknown_to_rapier().is_some() {
+            return Some("it does not have all joints of the scene");
+        }
+        matches!(joint.kind.motor(), Some(Motor::Value(_)))
+            .then_some("it has no motors that keep a value exactly")
     })
 }

@@ -5,8 +5,8 @@ use glam::DQuat;
 use super::timed::Timed;
 use super::{Arrow, Color};
 use crate::physics::{
-    Anchor, Ball, BodyId, BodySnapshot, Coordinate, Fixed, Gear, Hinge, Pulley, Rod, Rope, Servo, Slider,
-    Target,
+    Anchor, Ball, BodyId, BodySnapshot, Coordinate, Fixed, Gear, Hinge, Motor, Pulley, Rod, Rope, Servo,
+    Slider, Target,
 };
 
 /// A joint between two bodies, or between a body and a point of the world.
@@ -96,6 +96,29 @@ impl JointKind {
             JointKind::Hinge(hinge) => Some(hinge.coordinate()),
             JointKind::Slider(slider) => Some(slider.coordinate()),
             _ => None,
+        }
+    }
+
+    /// Returns the motor of a hinge or slider. `None` for other joints, and without a motor.
+    pub fn motor(&self) -> Option<&Motor> {
+        match self {
+            JointKind::Hinge(hinge) => hinge.freedom.motor.as_ref(),
+            JointKind::Slider(slider) => slider.freedom.motor.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// Returns the name of the kind if rapier, which steps scenes of many bodies, has no such joint.
+    pub fn unknown_to_rapier(&self) -> Option<&'static str> {
+        match self {
+            JointKind::Ball(_)
+            | JointKind::Hinge(_)
+            | JointKind::Slider(_)
+            | JointKind::Fixed(_)
+            | JointKind::Rod(_)
+            | JointKind::Rope(_) => None,
+            JointKind::Pulley(_) => Some("pulley"),
+            JointKind::Gear(_) => Some("gear"),
         }
     }
 }

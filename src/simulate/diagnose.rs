@@ -3,7 +3,7 @@
 use super::{SimulateError, Why};
 use crate::diagnostic::{Code, Diagnostic, Report, Sources};
 use crate::physics::Motor;
-use crate::scene::{JointKind, Scene};
+use crate::scene::Scene;
 
 impl SimulateError {
     /// The diagnostic code of the error.
@@ -109,14 +109,6 @@ impl SimulateError {
 
 /// Returns whether the scene prescribes the motion of a body or of a joint.
 pub(super) fn is_driven(scene: &Scene) -> bool {
-    let has_motor = |kind: &JointKind| {
-        let motor = match kind {
-            JointKind::Hinge(hinge) => hinge.freedom.motor.as_ref(),
-            JointKind::Slider(slider) => slider.freedom.motor.as_ref(),
-            _ => None,
-        };
-        matches!(motor, Some(Motor::Value(_)))
-    };
     scene.bodies.iter().any(|body| body.motion.is_some())
-        || scene.joints.iter().any(|joint| has_motor(&joint.kind))
+        || scene.joints.iter().any(|joint| matches!(joint.kind.motor(), Some(Motor::Value(_))))
 }

@@ -13,7 +13,7 @@ use crate::scene::grammar::bodies::body;
 use crate::scene::grammar::joints::hinge;
 use crate::scene::grammar::scene::{environment, scene, simulation};
 use crate::scene::grammar::showing::joint_arrows;
-use crate::scene::{Body, ContactLaw, Joint, JointKind, SimulationSettings, is_by_moreau, thinnest};
+use crate::scene::{Body, ContactLaw, Joint, SimulationSettings, is_by_moreau, thinnest};
 
 /// The smallest restitution for which a warning says that rebounds lose height.
 const MIN_RESTITUTION_TO_WARN: f64 = 0.9;
@@ -133,26 +133,11 @@ pub(super) fn check_joints(
             let error = Diagnostic::error(Code::BadContacts, what).at(span, label.to_owned());
             context.diagnostics.push(error.help(help.to_owned()));
         };
-        let motor = match &joint.kind {
-            JointKind::Hinge(hinge) => hinge.freedom.motor.as_ref(),
-            JointKind::Slider(slider) => slider.freedom.motor.as_ref(),
-            JointKind::Pulley(_) if !is_by_moreau => {
-                wrong(
-                    format!("time stepping has no pulley, as `{name}` is one"),
-                    span,
-                    "",
-                    OTHER_SCHEME_HELP,
-                );
-                None
-            }
-            JointKind::Gear(_) if !is_by_moreau => {
-                wrong(format!("time stepping has no gear, as `{name}` is one"), span, "", OTHER_SCHEME_HELP);
-                None
-            }
-            _ => None,
-        };
+        if let Some(kind) = joint.kind.unknown_to_rapier().filter(|_| !is_by_moreau) {
+            wrong(format!("time stepping has no {kind}, as `{name}` is one"), span, "", OTHER_SCHEME_HELP);
+        }
         let kind = super::joint::kind(&view);
-        if matches!(motor, Some(Motor::Value(_))) {
+        if matches!(joint.kind.motor(), Some(Motor::Value(_))) {
             let place = kind.as_ref().and_then(|kind| kind.key_span(&hinge::MOTOR)).unwrap_or(span);
             let help = "give the motor a `stiffness` and a `damping`, or take the other scheme: \
                         `simulation.contacts = \"event-driven\"`";

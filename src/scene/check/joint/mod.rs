@@ -18,6 +18,7 @@ use crate::physics::{Anchor, Ball, Fixed, Freedom, Hinge, Rod, Servo, Slider};
 use crate::scene::grammar::joints::{hinge, joint, look, rod};
 use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::showing::joint_arrows;
+use crate::scene::grammar::{Any, Key};
 use crate::scene::source::Node;
 use crate::scene::value;
 use crate::scene::{Arrow, Body, Joint, JointKind, JointLook, Quantity, SimulationSettings};
@@ -46,7 +47,8 @@ pub(super) fn read(
     for (name, span, view) in others.into_iter().chain(gears) {
         let before = context.diagnostics.len();
         let mut reader = Reader { name, span, bodies, simulation, gears: &gear_names, context };
-        let found = reader.kind(&view, &joints);
+        let chosen = KINDS.iter().find_map(|(key, read)| Some((read, view.variant(key)?)));
+        let found = chosen.and_then(|(read, view)| read(&mut reader, &view, &joints));
         if found.is_some() && !method.constraints {
             let message = format!("the integrator `{}` keeps no joints", method.name);
             let error = Diagnostic::error(Code::BadJoint, message).at(span, "");
@@ -101,6 +103,21 @@ fn look(view: &View<'_>, kind: &JointKind) -> Option<JointLook> {
         .then(|| JointLook { radius: look.get(&look::RADIUS), color: look.get(&look::COLOR) })
 }
 
+/// Reads the table of a joint of one kind, given the joints before it: the joint, and the motor that drives it like a spring.
+type Read = fn(&mut Reader<'_, '_>, &View<'_>, &[Joint]) -> Option<(JointKind, Option<Servo>)>;
+
+/// All kinds of joints, each with the function that reads its table.
+static KINDS: [(&Key<Any>, Read); 8] = [
+    (&joint::BALL, |reader, view, _| Some((JointKind::Ball(reader.ball(view)?), None))),
+    (&joint::HINGE, |reader, view, _| reader.hinge(view)),
+    (&joint::SLIDER, |reader, view, _| reader.slider(view)),
+    (&joint::FIXED, |reader, view, _| Some((JointKind::Fixed(reader.fixed(view)?), None))),
+    (&joint::ROD, |reader, view, _| Some((JointKind::Rod(reader.rod(view)?), None))),
+    (&joint::ROPE, |reader, view, _| Some((JointKind::Rope(reader.rope(view)?), None))),
+    (&joint::PULLEY, |reader, view, _| Some((JointKind::Pulley(reader.pulley(view)?), None))),
+    (&joint::GEAR, |reader, view, joints| Some((JointKind::Gear(reader.gear(view, joints)?), None))),
+];
+
 /// Reads one joint.
 struct Reader<'a, 'c> {
     name: &'a str,
@@ -113,40 +130,33 @@ struct Reader<'a, 'c> {
 }
 
 impl Reader<'_, '_> {
-    fn kind(&mut self, view: &View<'_>, joints: &[Joint]) -> Option<(JointKind, Option<Servo>)> {
-        if let Some(hinge) = view.variant(&joint::HINGE) {
-            let (between, _) = self.joined(&hinge, true)?;
-            let axis = hinge.get(&hinge::AXIS)?.normalize();
-            let axis = self.in_axes_of(between[0], axis);
-            let joint = Hinge::new(between, axis, self.turned(between));
-            let (freedom, servo) = self.freedom(&hinge, joint.coordinate());
-            return Some((JointKind::Hinge(joint.with(freedom)), servo));
-        }
-        if let Some(slider) = view.variant(&joint::SLIDER) {
-            let (between, _) = self.joined(&slider, false)?;
-            let axis = slider.get(&hinge::AXIS)?.normalize();
-            let axis = self.in_axes_of(between[0], axis);
-            let turned = self.turned(between);
-            let joint = Slider { between, axis, turned, freedom: Freedom::default() };
-            let (freedom, servo) = self.freedom(&slider, joint.coordinate());
-            return Some((JointKind::Slider(Slider { freedom, ..joint }), servo));
-        }
-        let kind = if let Some(rod) = view.variant(&joint::ROD) {
-            JointKind::Rod(self.rod(&rod)?)
-        } else if let Some(ball) = view.variant(&joint::BALL) {
-            let (between, _) = self.joined(&ball, true)?;
-            JointKind::Ball(Ball { between })
-        } else if let Some(rope) = view.variant(&joint::ROPE) {
-            JointKind::Rope(self.rope(&rope)?)
-        } else if let Some(pulley) = view.variant(&joint::PULLEY) {
-            JointKind::Pulley(self.pulley(&pulley)?)
-        } else if let Some(gear) = view.variant(&joint::GEAR) {
-            JointKind::Gear(self.gear(&gear, joints)?)
-        } else {
-            let (between, _) = self.joined(&view.variant(&joint::FIXED)?, false)?;
-            JointKind::Fixed(Fixed { between, turned: self.turned(between) })
-        };
-        Some((kind, None))
+    fn hinge(&mut self, view: &View<'_>) -> Option<(JointKind, Option<Servo>)> {
+        let (between, _) = self.joined(view, true)?;
+        let axis = view.get(&hinge::AXIS)?.normalize();
+        let axis = self.in_axes_of(between[0], axis);
+        let joint = Hinge::new(between, axis, self.turned(between));
+        let (freedom, servo) = self.freedom(view, joint.coordinate());
+        Some((JointKind::Hinge(joint.with(freedom)), servo))
+    }
+
+    fn slider(&mut self, view: &View<'_>) -> Option<(JointKind, Option<Servo>)> {
+        let (between, _) = self.joined(view, false)?;
+        let axis = view.get(&hinge::AXIS)?.normalize();
+        let axis = self.in_axes_of(between[0], axis);
+        let turned = self.turned(between);
+        let joint = Slider { between, axis, turned, freedom: Freedom::default() };
+        let (freedom, servo) = self.freedom(view, joint.coordinate());
+        Some((JointKind::Slider(Slider { freedom, ..joint }), servo))
+    }
+
+    fn ball(&mut self, view: &View<'_>) -> Option<Ball> {
+        let (between, _) = self.joined(view, true)?;
+        Some(Ball { between })
+    }
+
+    fn fixed(&mut self, view: &View<'_>) -> Option<Fixed> {
+        let (between, _) = self.joined(view, false)?;
+        Some(Fixed { between, turned: self.turned(between) })
     }
 
     fn rod(&mut self, view: &View<'_>) -> Option<Rod> {
@@ -286,5 +296,19 @@ impl Reader<'_, '_> {
     fn turned(&self, between: [Anchor; 2]) -> glam::DQuat {
         let turn = |end: Anchor| end.body().map_or(glam::DQuat::IDENTITY, |id| end::pose(id, self.bodies).1);
         turn(between[1]).conjugate() * turn(between[0])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::grammar::Rule;
+
+    #[test]
+    fn each_kind_of_joint_in_the_grammar_is_read() {
+        let Rule::ExactlyOne(names) = joint::TABLE.rule else { panic!("a joint has one kind") };
+        let read: Vec<&str> = KINDS.iter().map(|(key, _)| key.spec.name).collect();
+        assert!(names.iter().all(|name| read.contains(name)), "{names:?} {read:?}");
+        assert_eq!(names.len(), read.len());
     }
 }
