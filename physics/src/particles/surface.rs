@@ -59,7 +59,11 @@ pub(super) fn place(shape: &Shape, random: &mut Stream) -> (DVec3, DVec3) {
             (end + radius * normal, normal)
         }
         Shape::Torus { radius, tube_radius } => on_torus(radius, tube_radius, random),
-        _ => (DVec3::ZERO, DVec3::Y),
+        Shape::RoundedBox { .. }
+        | Shape::Plane { .. }
+        | Shape::Axes { .. }
+        | Shape::Compound(_)
+        | Shape::Mesh { .. } => (DVec3::ZERO, DVec3::Y),
     }
 }
 

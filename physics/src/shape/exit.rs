@@ -28,7 +28,12 @@ impl Shape {
                 exits.reduce(f64::max)
             }
             Shape::Mesh { ref mesh, scale } => Some(scale * triangles(mesh, origin / scale, direction)?),
-            _ => self.traced(origin, direction),
+            Shape::RoundedBox { .. }
+            | Shape::Cylinder { .. }
+            | Shape::Capsule { .. }
+            | Shape::Cone { .. }
+            | Shape::Torus { .. }
+            | Shape::Axes { .. } => self.traced(origin, direction),
         }
     }
 
@@ -90,7 +95,11 @@ impl Shape {
                 let arm = |axis: DVec3| (point - axis * point.dot(axis).clamp(0.0, length)).length();
                 arm(DVec3::X).min(arm(DVec3::Y)).min(arm(DVec3::Z)) - SHAFT_RADIUS * length
             }
-            _ => return None,
+            Shape::Sphere { .. }
+            | Shape::Box { .. }
+            | Shape::Plane { .. }
+            | Shape::Compound(_)
+            | Shape::Mesh { .. } => return None,
         })
     }
 }

@@ -223,7 +223,11 @@ impl Shape {
                 let ends = [radius * rim + base * DVec3::Y, top_radius * rim + (base + height) * DVec3::Y];
                 if ends[0].dot(direction) > ends[1].dot(direction) { ends[0] } else { ends[1] }
             }
-            _ => return None,
+            Shape::Torus { .. }
+            | Shape::Plane { .. }
+            | Shape::Axes { .. }
+            | Shape::Compound(_)
+            | Shape::Mesh { .. } => return None,
         })
     }
 
@@ -259,7 +263,15 @@ impl Shape {
         match self {
             Shape::Torus { .. } => true,
             Shape::Compound(compound) => compound.parts().iter().any(|part| part.shape.has_torus()),
-            _ => false,
+            Shape::Sphere { .. }
+            | Shape::Box { .. }
+            | Shape::RoundedBox { .. }
+            | Shape::Cylinder { .. }
+            | Shape::Capsule { .. }
+            | Shape::Cone { .. }
+            | Shape::Plane { .. }
+            | Shape::Axes { .. }
+            | Shape::Mesh { .. } => false,
         }
     }
 
