@@ -2,9 +2,9 @@
 //! is as exact, but the search is slower.
 
 use super::closest_points::ClosestPoints;
-use super::solid::{Part, Pose};
+use super::solid::{ConvexPart, Pose};
 
 /// Always returns `None`: without GJK, there is no first guess for the closest points of two convex parts.
-pub(super) fn cores(_: &Part, _: &Pose, _: &Part, _: &Pose) -> Option<ClosestPoints> {
+pub(super) fn cores(_: &ConvexPart, _: &Pose, _: &ConvexPart, _: &Pose) -> Option<ClosestPoints> {
     None
 }
