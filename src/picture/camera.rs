@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::followed::FollowedValues;
 use super::framing::{self, Field, Framing, Free, Tilt};
-use super::plots;
+use super::labels;
 use super::screen::Screen;
 use super::track::Track;
 use crate::scene::{Blur, Body, Camera, MeasureFormula, Output, Projection, Scene, VaryingPoint};
@@ -25,7 +25,7 @@ pub struct Placed {
     tilt: Tilt,
     blur: Option<Blur>,
     output: Output,
-    /// The part of the picture's width that plots leave free.
+    /// The part of the picture that plots and labels leave free.
     free: Free,
 }
 
@@ -53,7 +53,7 @@ impl Placed {
         let towards = tilt.turned(towards);
         // A camera that is placed or moved by the scene keeps what it looks at in the middle.
         let is_free = camera.location.is_none() && camera.look_at.is_none() && !camera.motion.moves();
-        let free = if is_free { plots::free(scene) } else { Free::ALL };
+        let free = if is_free { labels::free(scene) } else { Free::ALL };
         let (lens, auto) = match camera.projection {
             Projection::Perspective { angle } => {
                 let field = Field::new(angle, output).within(free);
@@ -124,8 +124,8 @@ impl Placed {
 
     /// The camera with another aim and another width in view there, m. It keeps its direction.
     fn aimed(&self, aim: DVec3, view: f64) -> Placed {
-        let (right, _, back) = self.axes();
-        let look_at = aim - right * (self.free.center * view / 2.0);
+        let (right, up, back) = self.axes();
+        let look_at = aim - self.free.shift(view, self.output, (right, up));
         let (lens, distance) = match self.rays() {
             Some(slope) => (self.lens, view / (2.0 * slope)),
             None => (Lens::Orthographic { width: view }, self.location.distance(self.look_at)),

@@ -65,24 +65,37 @@ pub(super) struct Framing {
 pub(super) struct Field {
     pub(super) horizontal: f64,
     vertical: f64,
-    /// The tangent of the horizontal angle of the middle of the free part.
-    center: f64,
-    /// Half of the width of the free part, as a difference of tangents.
-    half: f64,
+    free: Free,
 }
 
-/// The part of the picture's width that plots at its sides leave free.
+/// The part of the picture that plots at its sides and labels in its corners leave free for the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Free {
     /// The middle of the free part, in half-widths of the picture: negative if plots stand at the right side.
     pub(super) center: f64,
     /// Half of its width, in half-widths of the picture.
     pub(super) half: f64,
+    /// The middle of the free part above that of the picture, in half-heights of the picture: negative below labels.
+    pub(super) middle: f64,
+    /// Half of its height, in half-heights of the picture.
+    pub(super) half_height: f64,
 }
 
 impl Free {
     /// The whole picture.
-    pub(super) const ALL: Free = Free { center: 0.0, half: 1.0 };
+    pub(super) const ALL: Free = Free { center: 0.0, half: 1.0, middle: 0.0, half_height: 1.0 };
+
+    /// Returns the way from the aim of a camera to what it shows in the middle of the free part, m, for a camera with this width in view
+    /// (m) and these unit vectors to the right and up.
+    pub(super) fn shift(self, view: f64, output: Output, (right, up): (DVec3, DVec3)) -> DVec3 {
+        let height = view * f64::from(output.height) / f64::from(output.width);
+        right * (self.center * view / 2.0) + up * (self.middle * height / 2.0)
+    }
+
+    /// Returns the part that is also free of what takes these fractions of the picture's height at the top and at the bottom.
+    pub(super) fn between(self, [top, bottom]: [f64; 2]) -> Free {
+        Free { middle: bottom - top, half_height: 1.0 - top - bottom, ..self }
+    }
 }
 
 impl Field {
@@ -93,14 +106,13 @@ impl Field {
         Field {
             horizontal,
             vertical: horizontal * f64::from(output.height) / f64::from(output.width),
-            center: 0.0,
-            half: horizontal,
+            free: Free::ALL,
         }
     }
 
     /// Limits the motion to a part of the picture.
     pub(super) fn within(self, free: Free) -> Field {
-        Field { center: free.center * self.horizontal, half: free.half * self.horizontal, ..self }
+        Field { free, ..self }
     }
 }
 
@@ -122,7 +134,8 @@ pub(super) fn perspective(
         // centered. Each iteration removes most of the error.
         for _ in 0..6 {
             let (x, y) = middle_of_picture(&corners, aim, (right, up, back), distance);
-            aim += (right * (x - field.center) + up * y) * distance;
+            let (across, upward) = (field.free.center * field.horizontal, field.free.middle * field.vertical);
+            aim += (right * (x - across) + up * (y - upward)) * distance;
             distance = self::distance(&corners, aim, (right, up, back), field);
         }
     }
@@ -144,14 +157,15 @@ pub(super) fn view_for(
     let corners = corners(bounds);
     match rays {
         Some(horizontal) => {
-            let half = free.half * horizontal;
-            let field = Field { horizontal, vertical: horizontal / aspect, center: 0.0, half };
+            let free = Free { center: 0.0, middle: 0.0, ..free };
+            let field = Field { horizontal, vertical: horizontal / aspect, free };
             2.0 * horizontal * distance(&corners, aim, axes, field)
         }
         None => {
             let half = |corner: DVec3| {
                 let offset = corner - aim;
-                (offset.dot(axes.0).abs() / free.half).max(offset.dot(axes.1).abs() * aspect)
+                let [across, upward] = [axes.0, axes.1].map(|axis| offset.dot(axis).abs());
+                (across / free.half).max(upward / free.half_height * aspect)
             };
             2.0 * corners.into_iter().map(half).fold(0.0, f64::max) / MAX_FILLED
         }
@@ -170,7 +184,7 @@ pub(super) fn orthographic(
     let middle = (bounds.min + bounds.max) / 2.0;
     let aim = look_at.unwrap_or(middle);
     let width = view_for(bounds, aim, (right, up, back), None, (output, free));
-    let aim = look_at.unwrap_or(aim - right * (free.center * width / 2.0));
+    let aim = look_at.unwrap_or(aim - free.shift(width, output, (right, up)));
     // With parallel rays, the picture is the same from any distance in front of all bodies.
     let distance = 2.0 * ((bounds.max - bounds.min).length() + aim.distance((bounds.min + bounds.max) / 2.0));
     (rounded(aim, back, distance), width)
@@ -233,10 +247,13 @@ fn distance(corners: &[DVec3; 8], aim: DVec3, axes: (DVec3, DVec3, DVec3), field
     let (right, up, back) = axes;
     let needed = |corner: &DVec3| {
         let offset = *corner - aim;
-        let edge = field.half * MAX_FILLED;
-        let across = offset.dot(right);
-        let across = (across / (field.center + edge)).max(across / (field.center - edge));
-        let upward = offset.dot(up).abs() / (field.vertical * MAX_FILLED);
+        let Free { center, half, middle, half_height } = field.free;
+        let within = |at: f64, (center, half): (f64, f64), tangent: f64| {
+            let edges = [center + half * MAX_FILLED, center - half * MAX_FILLED];
+            edges.map(|edge| at / (edge * tangent)).into_iter().fold(0.0, f64::max)
+        };
+        let across = within(offset.dot(right), (center, half), field.horizontal);
+        let upward = within(offset.dot(up), (middle, half_height), field.vertical);
         across.max(upward) + offset.dot(back)
     };
     corners.iter().map(needed).fold(0.0, f64::max)
@@ -310,10 +327,11 @@ mod tests {
         }
     }
 
-    /// Plots at the right side take 40 % of the width: the corners are in the 60 % at the left, and fill them.
+    /// Plots at the right side take 40 % of the width, and labels at the top 20 % of the height: the corners are in the rest, and fill it.
     #[test]
-    fn beside_plots_all_corners_are_in_the_free_part() {
-        let free = Free { center: -0.4, half: 0.6 };
+    fn beside_plots_and_labels_all_corners_are_in_the_free_part() {
+        let free = Free { center: -0.4, half: 0.6, ..Free::ALL }.between([0.2, 0.0]);
+        assert!((free.middle + 0.2).abs() < 1e-12 && (free.half_height - 0.8).abs() < 1e-12, "{free:?}");
         for bounds in [
             Bounds { min: DVec3::splat(-1.0), max: DVec3::splat(1.0) },
             Bounds { min: DVec3::new(-2.0, 0.0, -1.0), max: DVec3::new(62.0, 12.0, 1.0) },
@@ -334,11 +352,14 @@ mod tests {
                 let offset = corner - framing.location;
                 let depth = -offset.dot(back);
                 let across = offset.dot(right) / depth / field.horizontal;
-                let upward = offset.dot(up).abs() / depth / field.vertical;
-                fullest[0] = fullest[0].max((across - free.center).abs() / free.half).max(upward);
+                let upward = offset.dot(up) / depth / field.vertical;
+                let filled = |across: f64, upward: f64| {
+                    let across = (across - free.center).abs() / free.half;
+                    across.max((upward - free.middle).abs() / free.half_height)
+                };
+                fullest[0] = fullest[0].max(filled(across, upward));
                 let offset = (corner - flat.look_at) / (width / 2.0);
-                let across = (offset.dot(right) - free.center).abs() / free.half;
-                fullest[1] = fullest[1].max(across).max(offset.dot(up).abs() * 1280.0 / 720.0);
+                fullest[1] = fullest[1].max(filled(offset.dot(right), offset.dot(up) * 1280.0 / 720.0));
             }
             for fullest in fullest {
                 assert!((fullest - MAX_FILLED).abs() < 0.05, "{bounds:?} fills {fullest}");

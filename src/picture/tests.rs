@@ -65,6 +65,33 @@ fn a_camera_that_stands_still_sees_one_size_and_the_tips_of_all_arrows() {
     assert!((0.05..0.35).contains(&(longest / view)), "{longest} of {view}");
 }
 
+/// Two lines in a corner take a sixth of the height. The ball, which goes up and down, stays out of it.
+#[test]
+fn the_camera_leaves_room_for_labels_in_corners() {
+    for (corner, is_top) in [("top-left", true), ("bottom-right", false)] {
+        let (scene, plan) = plan(&format!(
+            "simulation = {{ duration = 2, gravity = [0, -9.81, 0] }}
+            [body.ball]\nshape.sphere.radius = 0.2\nvelocity = [1, 9.81, 0]
+            [label.first]\ntext = 'one line'\ncorner = '{corner}'
+            [label.second]\ntext = 'another line'\ncorner = '{corner}'"
+        ));
+        let aspect = 9.0 / 16.0;
+        for frame in frames(&scene) {
+            let ball = frame.bodies[0].location;
+            let reached = plan.screen(&frame).unwrap();
+            let reached = [-0.2, 0.2].map(|off| reached.project(ball + DVec3::Y * off).unwrap().y);
+            for text in plan.texts(&frame) {
+                let base = text.y.above_middle(aspect);
+                let is_clear = match is_top {
+                    true => reached[1] < base - 0.25 * text.height,
+                    false => reached[0] > base + 0.75 * text.height,
+                };
+                assert!(is_clear, "{corner}: {reached:?} and {} at {base}, t = {}", text.says, frame.time);
+            }
+        }
+    }
+}
+
 /// A ball falls 490 m.
 fn fall(keys: &str) -> (Scene, Plan) {
     plan(&format!("simulation.gravity = [0, -9.81, 0]\n[body.ball]\nshape.sphere.radius = 0.1\n{keys}"))

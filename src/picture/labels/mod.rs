@@ -11,11 +11,12 @@ use std::sync::Arc;
 
 use self::corner::{Layout, Taken, under_bar, under_plot};
 use self::lines::Block;
+use super::framing::Free;
 use super::occupancy::{Occupancy, Rectangle};
 use super::plots;
 use super::screen::Screen;
 use super::surroundings::{Key, Movable};
-use super::text::{Text, Vertical, least_height};
+use super::text::{MARGIN, Text, Vertical, is_top, least_height};
 use crate::font::Weight;
 use crate::lettering;
 use crate::scene::{Color, Corner, DecimalSign, Label, LabelPlace, Output, Scene};
@@ -47,6 +48,29 @@ pub(super) struct Labels {
 struct Planned {
     block: Block,
     color: Color,
+}
+
+/// The largest part of the picture's height that is kept free for labels at the top, and at the bottom.
+const MAX_KEPT_FREE: f64 = 0.16;
+
+/// Returns the part of the picture that plots at its sides and labels in its corners leave free.
+pub(super) fn free(scene: &Scene) -> Free {
+    let free = plots::free(scene);
+    let height = 2.0 * f64::from(scene.output.height) / f64::from(scene.output.width);
+    let kept = |at_top: bool| {
+        let taken = Corner::ALL.into_iter().filter(|corner| is_top(*corner) == at_top).map(|corner| {
+            let labels = scene.labels.iter().filter(|label| label.place == LabelPlace::Corner(corner));
+            let high = |label: &Label| Block::new(label, free, scene.output).high();
+            let (always, sometimes): (Vec<&Label>, Vec<&Label>) =
+                labels.partition(|label| label.visible == Label::ALWAYS);
+            // Labels that come and go take turns.
+            let high = always.into_iter().map(high).sum::<f64>()
+                + sometimes.into_iter().map(high).fold(0.0, f64::max);
+            if high > 0.0 { (MARGIN + high) / height } else { 0.0 }
+        });
+        taken.fold(0.0, f64::max).min(MAX_KEPT_FREE)
+    };
+    free.between([kept(true), kept(false)])
 }
 
 /// Replaces the letters of a text that the label's own font lacks by letters that it has.

@@ -170,7 +170,7 @@ pub(in super::super) fn free(scene: &Scene) -> Free {
     };
     let [left, right] = [PlotPlace::Left, PlotPlace::Right].map(taken);
     let scale = 1.0_f64.min(MAX_TAKEN_AT_SIDES / (left + right).max(1e-9));
-    Free { center: (left - right) * scale, half: 1.0 - (left + right) * scale }
+    Free { center: (left - right) * scale, half: 1.0 - (left + right) * scale, ..Free::ALL }
 }
 
 /// Returns the column of the picture that a plot stands in, numbered from left to right. A plot in a corner stands beside those at a side.
