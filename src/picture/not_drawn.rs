@@ -182,7 +182,7 @@ pub(super) fn find(
         if room >= spring.largest_gap {
             let fit = (spring.largest_gap > 0.0).then(|| decimal_step(0.3 * spring.largest_gap));
             found.add(what, &spring.force, Reason::NoRoom { radius, fit });
-        } else if 2.0 * radius < MIN_VISIBLE_WIDTH * pixel {
+        } else if is_coil && 2.0 * radius < MIN_VISIBLE_WIDTH * pixel {
             let why = Reason::TooSmall {
                 pixels: 2.0 * radius / pixel,
                 fit: decimal_step(0.1 * spring.largest_gap),

@@ -115,6 +115,11 @@ pub(super) fn stroke(view: f64, output: Output) -> f64 {
     STROKE.max(LEAST_STROKE / f64::from(output.width)) * view
 }
 
+/// The width of the thinnest line without gaps, m, in a picture with a width in view of `view` (m).
+pub(super) fn thinnest(view: f64, output: Output) -> f64 {
+    THINNEST_LINE / f64::from(output.width) * view
+}
+
 /// The diagonal of a box, rounded up to two digits.
 fn size(bounds: Bounds) -> f64 {
     two_digits_up(framing::rounded_outward(bounds).diagonal())
@@ -126,6 +131,8 @@ const TILES_FADE: f64 = 3.5;
 const CLEAR_TILES: f64 = 600.0;
 /// The width of a clearly visible line, relative to the width of the picture: four pixels of 1280.
 const STROKE: f64 = 0.0031;
+/// The width of the thinnest line without gaps, pixels. POV-Ray breaks thinner ones into dots.
+const THINNEST_LINE: f64 = 1.5;
 /// The smallest width of a clearly visible line, pixels.
 const LEAST_STROKE: f64 = 1.5;
 

@@ -92,6 +92,29 @@ fn the_camera_leaves_room_for_labels_in_corners() {
     }
 }
 
+/// A thread is drawn a pixel and a half wide, since POV-Ray breaks thinner lines into dots. A thick rod keeps its own radius.
+#[test]
+fn no_line_of_a_joint_is_thinner_than_a_pixel_and_a_half() {
+    for (joint, thick) in [("rope", false), ("rod", false), ("rod", true)] {
+        let radius = if thick { 0.05 } else { 1e-4 };
+        let (scene, plan) = plan(&format!(
+            "simulation = {{ duration = 1, gravity = [0, -9.81, 0] }}
+            [body.bob]\nshape.sphere.radius = 0.1\nlocation = [1, 0, 0]
+            [joint.thread.{joint}]\nbetween = [[0, 0, 0], 'bob']\nlook.radius = {radius}"
+        ));
+        let frame = frames(&scene).next().unwrap();
+        let drawn = plan.links(&frame).into_iter().filter_map(|thing| match thing.form {
+            Form::Rod { radius, .. } | Form::Rope { radius, .. } => Some(radius),
+            _ => None,
+        });
+        let drawn = drawn.fold(0.0, f64::max);
+        // A clearly visible line is four pixels of 1280 wide.
+        let least = 0.5 * 1.5 * plan.stroke(&frame) / (0.0031 * 1280.0);
+        let expected = if thick { radius } else { least };
+        assert!((drawn / expected - 1.0).abs() < 1e-9, "{joint}: {drawn} instead of {expected}");
+    }
+}
+
 /// A ball falls 490 m.
 fn fall(keys: &str) -> (Scene, Plan) {
     plan(&format!("simulation.gravity = [0, -9.81, 0]\n[body.ball]\nshape.sphere.radius = 0.1\n{keys}"))

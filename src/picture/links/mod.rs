@@ -113,12 +113,12 @@ impl Links {
     pub(super) fn of_body(&self, body: usize, frame: &Frame) -> impl Iterator<Item = Thing<'_>> {
         let first = self.of_bodies.partition_point(|(other, _)| *other < body);
         let its = self.of_bodies[first..].iter().take_while(move |(other, _)| *other == body);
-        its.filter_map(|(_, number)| self.link(&self.parts[*number], frame))
+        its.filter_map(|(_, number)| self.link(&self.parts[*number], frame, 0.0))
     }
 
-    /// All parts of springs and joints that are visible in a frame, with their positions.
-    pub(super) fn at(&self, frame: &Frame) -> Vec<Thing<'_>> {
-        self.parts.iter().filter_map(|part| self.link(part, frame)).collect()
+    /// All parts of springs and joints that are visible in a frame, with their positions. Lines are at least `thinnest` wide, m.
+    pub(super) fn at(&self, frame: &Frame, thinnest: f64) -> Vec<Thing<'_>> {
+        self.parts.iter().filter_map(|part| self.link(part, frame, thinnest)).collect()
     }
 
     /// All parts of springs and joints, including those that are not drawn in some frames.
@@ -137,13 +137,16 @@ impl Links {
         })
     }
 
-    /// For each part, in the order of [`planned`](Self::planned), its shape in a frame. `None` if the part is not drawn.
-    pub(super) fn each(&self, frame: &Frame) -> impl Iterator<Item = Option<Thing<'_>>> {
-        self.parts.iter().map(|part| self.link(part, frame))
+    /// For each part, in the order of [`planned`](Self::planned), its shape in a frame. `None` if the part is not drawn. Lines are at least
+    /// `thinnest` wide, m.
+    pub(super) fn each(&self, frame: &Frame, thinnest: f64) -> impl Iterator<Item = Option<Thing<'_>>> {
+        self.parts.iter().map(move |part| self.link(part, frame, thinnest))
     }
 
-    /// Computes the shape of a part in a frame. `None` while one of its bodies is absent, or if the bodies at its ends leave no room.
-    fn link<'a>(&'a self, part: &'a LinkPart, frame: &Frame) -> Option<Thing<'a>> {
+    /// Computes the shape of a part in a frame, as a line at least `thinnest` wide, m. `None` while one of its bodies is absent, or if the
+    /// bodies at its ends leave no room.
+    fn link<'a>(&'a self, part: &'a LinkPart, frame: &Frame, thinnest: f64) -> Option<Thing<'a>> {
+        let clear = |radius: f64| radius.max(thinnest / 2.0);
         // A fixed point is always present.
         let is_there = |end: Anchor| end.body().is_none_or(|id| frame.body(id.index()).is_some());
         if !part.between.into_iter().all(is_there) {
@@ -153,24 +156,25 @@ impl Links {
             PlannedShape::Pin { at, radius } => Form::Ball { at: self.place(at, frame), radius },
             PlannedShape::Coil { radius, turns } => {
                 let ends = self.span(part.between, frame, room_for(radius))?;
-                Form::Coil { ends, radius, wire: WIRE_RADIUS * radius, turns }
+                Form::Coil { ends, radius, wire: clear(WIRE_RADIUS * radius), turns }
             }
             PlannedShape::Rod { between, radius } => {
-                Form::Rod { ends: self.span(between, frame, 0.0)?, radius }
+                Form::Rod { ends: self.span(between, frame, 0.0)?, radius: clear(radius) }
             }
             PlannedShape::Bar { at, along, reach, radius } => {
                 let middle = self.place(at, frame);
                 let along = turn(at, frame) * along;
-                Form::Rod { ends: reach.map(|way| middle + way * along), radius }
+                Form::Rod { ends: reach.map(|way| middle + way * along), radius: clear(radius) }
             }
             PlannedShape::Rope { between, length, radius } => {
                 let points = hanging(between.map(|end| self.place(end, frame)), length, self.down);
-                Form::Rope { points, radius }
+                Form::Rope { points, radius: clear(radius) }
             }
             PlannedShape::OverWheels { joint, wheel, radius } => {
                 let pulley = self.pulleys.get(&joint)?;
                 let course = self.course(pulley, wheel, frame)?;
-                Form::Rope { points: course.points(pulley.length, pulley.ratio, self.down), radius }
+                let points = course.points(pulley.length, pulley.ratio, self.down);
+                Form::Rope { points, radius: clear(radius) }
             }
             PlannedShape::Wheel { joint, number, wheel, half_width } => {
                 let course = self.course(self.pulleys.get(&joint)?, wheel, frame)?;

@@ -31,7 +31,7 @@ use super::marks::{ArrowMarks, Marks, with_lines};
 use super::not_drawn::{self, NotDrawn};
 use super::plots::{PlannedPlot, PlotNow, Plots, UnseenPlot};
 use super::screen::Screen;
-use super::stage::{Scenery, Stage, stroke};
+use super::stage::{Scenery, Stage, stroke, thinnest};
 use super::thing::{PlannedThing, Thing};
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
@@ -91,6 +91,8 @@ struct Sizes {
     view: f64,
     /// The width of a clearly visible line, m.
     stroke: f64,
+    /// The width of the thinnest line without gaps, m.
+    thinnest: f64,
     arrows: ArrowSizes,
 }
 
@@ -141,6 +143,7 @@ impl Plan {
         let sizes = Sizes {
             view: early,
             stroke: width,
+            thinnest: thinnest(early, scene.output),
             // Use the rounded scales that the camera was placed for.
             arrows: arrows.still_sizes(scales, early, width),
         };
@@ -191,8 +194,9 @@ impl Plan {
             return self.sizes;
         }
         let view = self.eye.at(frame).width_of_view(self.stage.whole);
-        let stroke = self.sizes.stroke * (view / self.sizes.view);
-        Sizes { view, stroke, arrows: self.arrows.sizes(view, stroke) }
+        let [stroke, thinnest] =
+            [self.sizes.stroke, self.sizes.thinnest].map(|width| width * (view / self.sizes.view));
+        Sizes { view, stroke, thinnest, arrows: self.arrows.sizes(view, stroke) }
     }
 
     /// The surroundings of the bodies: ground, sky and haze.
@@ -267,7 +271,7 @@ impl Plan {
 
     /// The parts of springs and joints that are drawn in a frame.
     pub fn links(&self, frame: &Frame) -> Vec<Thing<'_>> {
-        self.links.at(frame)
+        self.links.at(frame, self.sizes(frame).thinnest)
     }
 
     /// All parts of springs and joints, including those that are not drawn in some frames.
@@ -277,7 +281,7 @@ impl Plan {
 
     /// For each part of [`planned_links`](Self::planned_links), its shape in a frame. `None` if the part is not drawn.
     pub fn each_link(&self, frame: &Frame) -> impl Iterator<Item = Option<Thing<'_>>> {
-        self.links.each(frame)
+        self.links.each(frame, self.sizes(frame).thinnest)
     }
 
     /// The visible ghosts of a frame: those with another pose than their body.

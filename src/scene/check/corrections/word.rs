@@ -3,7 +3,7 @@
 /// Returns the word in `words` that corresponds to a word from another program. `None` if no word corresponds.
 pub(in crate::scene::check) fn other_word<'a>(word: &str, words: &[&'a str]) -> Option<&'a str> {
     /// Each word of the scene language, with the words for it in other programs.
-    const WORD_SYNONYMS: [(&str, &[&str]); 21] = [
+    const WORD_SYNONYMS: [(&str, &[&str]); 23] = [
         ("rk4", &["rk", "rk-4", "runge-kutta", "runge-kutta-4"]),
         ("dop853", &["rk45", "ode45", "dopri5", "dopri", "rk8", "dormand-prince", "adaptive", "lsoda"]),
         ("gauss-radau", &["ias15", "radau", "gauss-radau-15", "everhart", "radau15", "ra15"]),
@@ -20,6 +20,8 @@ pub(in crate::scene::check) fn other_word<'a>(word: &str, words: &[&'a str]) -> 
         ("space", &["stars", "black", "universe"]),
         ("top-left", &["upper-left", "left-top", "topleft", "northwest"]),
         ("top-right", &["upper-right", "right-top", "topright", "northeast"]),
+        ("top", &["top-center", "top-centre", "top-middle", "upper", "above", "north"]),
+        ("bottom", &["bottom-center", "bottom-centre", "bottom-middle", "lower", "below", "south"]),
         ("bottom-left", &["lower-left", "left-bottom", "bottomleft", "southwest"]),
         ("bottom-right", &["lower-right", "right-bottom", "bottomright", "southeast"]),
         ("above", &["top", "up", "over"]),
