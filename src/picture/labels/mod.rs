@@ -53,6 +53,9 @@ struct Planned {
 /// The largest part of the picture's height that is kept free for labels at the top, and at the bottom.
 const MAX_KEPT_FREE: f64 = 0.16;
 
+/// The part of the picture's height that a camera leaves free at the top, and at the bottom, in any case.
+const FREE_ANYWAY: f64 = 0.03;
+
 /// Returns the part of the picture that plots at its sides and labels in its corners leave free.
 pub(super) fn free(scene: &Scene) -> Free {
     let free = plots::free(scene);
@@ -66,7 +69,7 @@ pub(super) fn free(scene: &Scene) -> Free {
             // Labels that come and go take turns.
             let high = always.into_iter().map(high).sum::<f64>()
                 + sometimes.into_iter().map(high).fold(0.0, f64::max);
-            if high > 0.0 { (MARGIN + high) / height } else { 0.0 }
+            if high > 0.0 { (MARGIN + high) / height - FREE_ANYWAY } else { 0.0 }
         });
         taken.fold(0.0, f64::max).min(MAX_KEPT_FREE)
     };
