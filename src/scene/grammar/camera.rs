@@ -20,7 +20,7 @@ table! {
     LOCATION: Option<value::VaryingPoint> = KeySpec::new("location", VARYING_POINT, "The camera's position; numbers, or formulas of `t` and of measures such as `ball.x`")
         .unit("m")
         .default(
-            "fits the whole motion into the picture; of eight or more bodies, up to a third that \
+            "fits the whole motion into the picture, clear of labels in corners; of eight or more bodies, up to a third that \
              fly far away are left out; if bodies would be too small, goes along with the motion; of wide fixed bodies, such as a floor, only the part near \
              the motion is shown"
         )
