@@ -106,16 +106,16 @@ fn look(view: &View<'_>, kind: &JointKind) -> Option<JointLook> {
 /// Reads the table of a joint of one kind, given the joints before it: the joint, and the motor that drives it like a spring.
 type Read = fn(&mut Reader<'_, '_>, &View<'_>, &[Joint]) -> Option<(JointKind, Option<Servo>)>;
 
-/// All kinds of joints, each with the function that reads its table.
+/// All kinds of joints, each with the function that reads its table. Of a joint with several kinds, which is an error, the first is read.
 static KINDS: [(&Key<Any>, Read); 8] = [
-    (&joint::BALL, |reader, view, _| Some((JointKind::Ball(reader.ball(view)?), None))),
     (&joint::HINGE, |reader, view, _| reader.hinge(view)),
     (&joint::SLIDER, |reader, view, _| reader.slider(view)),
-    (&joint::FIXED, |reader, view, _| Some((JointKind::Fixed(reader.fixed(view)?), None))),
     (&joint::ROD, |reader, view, _| Some((JointKind::Rod(reader.rod(view)?), None))),
+    (&joint::BALL, |reader, view, _| Some((JointKind::Ball(reader.ball(view)?), None))),
     (&joint::ROPE, |reader, view, _| Some((JointKind::Rope(reader.rope(view)?), None))),
     (&joint::PULLEY, |reader, view, _| Some((JointKind::Pulley(reader.pulley(view)?), None))),
     (&joint::GEAR, |reader, view, joints| Some((JointKind::Gear(reader.gear(view, joints)?), None))),
+    (&joint::FIXED, |reader, view, _| Some((JointKind::Fixed(reader.fixed(view)?), None))),
 ];
 
 /// Reads one joint.
