@@ -172,7 +172,7 @@ pub fn set(text: &str, range: Range<usize>, bold_from: &mut Option<usize>) -> Re
     };
     let mut wrong = Vec::new();
     let mut at = 0;
-    // Whether a script ended right before `at`.
+    // Whether a subscript or superscript ended right before `at`.
     let mut after_script = begin > 0;
     while let Some(letter) = text[at..].chars().next() {
         let rest = &text[at + letter.len_utf8()..];

@@ -54,12 +54,12 @@
 //! edges of the rendered image. The font comes with POV-Ray; a letter that it lacks is an error.
 
 mod bodies;
-mod distinct;
 mod error;
 mod materials;
 mod meshes;
 mod names;
 mod particles;
+mod precision;
 mod sdl;
 mod shapes;
 mod showing;
@@ -131,7 +131,7 @@ impl Emitter {
         let templates = Templates::new(&scene.povray.templates, scene.povray.digits)?;
         let plan = Plan::new(scene, camera, survey);
         let unit = Unit::of(scene, &plan);
-        distinct::check(scene, camera, &plan, unit.length)?;
+        precision::check(scene, camera, &plan, unit.length)?;
         let stage = StageText::new(&plan, unit.length);
         let style = Style { unit: unit.length, digits: scene.povray.digits };
         let materials = materials::texts(scene);
@@ -199,7 +199,7 @@ impl Emitter {
             });
         }
         if self.plan.camera_moves()
-            && !distinct::sees(&self.plan.camera(frame), self.unit.length, self.style.digits)
+            && !precision::sees(&self.plan.camera(frame), self.unit.length, self.style.digits)
         {
             return Err(EmitError::Blind { time: frame.time });
         }
@@ -241,7 +241,7 @@ impl Emitter {
         Ok(Some(sdl).filter(|_| !self.sdl.is_empty()))
     }
 
-    /// Returns the trail files that the script of a frame includes, except those whose names `has` accepts. The name of a file contains a
+    /// Returns the trail files that the script of a frame includes, except those that exist: `has` tells whether a file of a name does. The name of a file contains a
     /// digest of its text, so each file has to be written only once for all frames. The list is empty in the layout `self-contained`.
     pub fn trail_files(&self, frame: &Frame, has: &dyn Fn(&str) -> bool) -> Vec<TrailFile> {
         self.showing.trail_files(&self.plan, frame, has)

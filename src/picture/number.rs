@@ -19,7 +19,7 @@ pub(crate) fn write(out: &mut String, number: f64, digits: usize) {
         out.push('-');
     }
     let magnitude = number.abs();
-    let (decimals, exponent) = fast(magnitude, digits).unwrap_or_else(|| exact(magnitude, digits));
+    let (decimals, exponent) = by_arithmetic(magnitude, digits).unwrap_or_else(|| by_text(magnitude, digits));
     layout(out, decimals, exponent, digits);
 }
 
@@ -76,7 +76,7 @@ pub(crate) fn text(number: f64, digits: usize) -> String {
     clippy::cast_precision_loss,
     reason = "the exponents of f64 are small, and the scaled number lies within 10^12"
 )]
-fn fast(magnitude: f64, digits: usize) -> Option<(u64, i32)> {
+fn by_arithmetic(magnitude: f64, digits: usize) -> Option<(u64, i32)> {
     const MOST_DIGITS: usize = 12;
     if digits > MOST_DIGITS || !(1e-9..1e15).contains(&magnitude) {
         return None;
@@ -113,7 +113,7 @@ fn fast(magnitude: f64, digits: usize) -> Option<(u64, i32)> {
 }
 
 /// Computes the same digits and exponent as [`fast`] by exact decimal arithmetic.
-fn exact(magnitude: f64, digits: usize) -> (u64, i32) {
+fn by_text(magnitude: f64, digits: usize) -> (u64, i32) {
     let text = format!("{magnitude:.*e}", digits - 1);
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
     let decimals =
@@ -206,9 +206,9 @@ mod tests {
             let magnitude = libm::pow(10.0, f64::from(round % 26) - 10.0) * (unit + 1e-3);
             let magnitude = if round % 5 == 0 { (magnitude * 2048.0).round() / 2048.0 } else { magnitude };
             for digits in [1, 4, 6, 9, 12] {
-                if let Some(fast) = fast(magnitude, digits) {
+                if let Some(fast) = by_arithmetic(magnitude, digits) {
                     decided += 1;
-                    assert_eq!(fast, exact(magnitude, digits), "{magnitude:e} to {digits} digits");
+                    assert_eq!(fast, by_text(magnitude, digits), "{magnitude:e} to {digits} digits");
                 }
             }
         }

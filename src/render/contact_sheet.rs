@@ -101,7 +101,7 @@ impl ContactSheet {
         let captions = captions(&chosen);
         let layout = Layout::new(chosen.len(), size, &captions);
         let images: Vec<Vec<u8>> =
-            chosen.par_iter().map(|shot| shrunk(&shot.image, layout.image)).collect::<Result<_, _>>()?;
+            chosen.par_iter().map(|shot| scaled_down(&shot.image, layout.image)).collect::<Result<_, _>>()?;
         let mut page = Page::new(layout.page);
         for (index, (image, [left, right])) in images.iter().zip(&captions).enumerate() {
             let (x, y) = layout.place(index);
@@ -212,7 +212,7 @@ fn scientific(time: f64) -> String {
 
 /// Reads an image and scales it down to this size. Returns its pixels, three bytes each. Averages are taken in linear light, since a mean
 /// of sRGB bytes would darken fine details.
-fn shrunk(path: &Path, (width, height): Size) -> Result<Vec<u8>, FilmError> {
+fn scaled_down(path: &Path, (width, height): Size) -> Result<Vec<u8>, FilmError> {
     let picture = Picture::read(path)?;
     let (from_width, from_height) = picture.size;
     let bytes = picture.over_white();

@@ -129,7 +129,7 @@ impl Sum {
         let Sum { width, height, alpha, light } = self;
         let count = images as f32;
         let bytes = if alpha {
-            light.as_chunks::<4>().0.iter().flat_map(|pixel| covering(*pixel, count)).collect()
+            light.as_chunks::<4>().0.iter().flat_map(|pixel| mean_of_pixel(*pixel, count)).collect()
         } else {
             light.iter().map(|light| number(light / count)).collect()
         };
@@ -138,7 +138,7 @@ impl Sum {
 }
 
 /// Returns the mean of a pixel with alpha, as bytes. `count` is the number of images. A fully transparent pixel has no color.
-fn covering([r, g, b, cover]: [f32; 4], count: f32) -> [u8; 4] {
+fn mean_of_pixel([r, g, b, cover]: [f32; 4], count: f32) -> [u8; 4] {
     if cover <= 0.0 {
         return [0; 4];
     }

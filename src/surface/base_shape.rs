@@ -45,19 +45,19 @@ impl Detail {
 
 impl BaseShape {
     /// A ball of radius 1.
-    pub const BALL: BaseShape = BaseShape::made("ball", [0.0; 4], |_, sides| lathe::capsule(0.0, sides));
+    pub const BALL: BaseShape = BaseShape::new("ball", [0.0; 4], |_, sides| lathe::capsule(0.0, sides));
     /// A cube from -1 to 1 along all axes.
-    pub const CUBE: BaseShape = BaseShape::made("cube", [0.0; 4], |_, _| straight::cube());
+    pub const CUBE: BaseShape = BaseShape::new("cube", [0.0; 4], |_, _| straight::cube());
     /// A cylinder of radius 1 from y = -1 to 1.
     pub const CYLINDER: BaseShape =
-        BaseShape::made("cylinder", [0.0; 4], |_, sides| lathe::cone(1.0, 1.0, sides));
+        BaseShape::new("cylinder", [0.0; 4], |_, sides| lathe::cone(1.0, 1.0, sides));
     /// A square from -1 to 1 along x and z, visible from above. The renderer chooses its drawn size.
-    pub const PLANE: BaseShape = BaseShape::made("plane", [0.0; 4], |_, _| straight::plane());
+    pub const PLANE: BaseShape = BaseShape::new("plane", [0.0; 4], |_, _| straight::plane());
 
     /// Creates a base shape from a name and numbers, which together identify it. `make` computes the triangles from the numbers and from
     /// the number of sides of a circle.
     #[must_use]
-    pub const fn made(
+    pub const fn new(
         name: &'static str,
         numbers: [f64; 4],
         make: fn([f64; 4], u32) -> Triangles,
@@ -69,7 +69,7 @@ impl BaseShape {
     /// larger must be 1.
     #[must_use]
     pub fn cone(bottom: f64, top: f64) -> BaseShape {
-        BaseShape::made("cone", [bottom, top, 0.0, 0.0], |[bottom, top, ..], sides| {
+        BaseShape::new("cone", [bottom, top, 0.0, 0.0], |[bottom, top, ..], sides| {
             lathe::cone(bottom, top, sides)
         })
     }
@@ -77,7 +77,7 @@ impl BaseShape {
     /// A capsule: a cylinder of radius 1 with a hemisphere on either end, from y = -1 - `straight` to 1 + `straight`.
     #[must_use]
     pub fn capsule(straight: f64) -> BaseShape {
-        BaseShape::made("capsule", [straight, 0.0, 0.0, 0.0], |[straight, ..], sides| {
+        BaseShape::new("capsule", [straight, 0.0, 0.0, 0.0], |[straight, ..], sides| {
             lathe::capsule(straight, sides)
         })
     }
@@ -85,14 +85,14 @@ impl BaseShape {
     /// A torus around y with a major radius of 1. The radius of its tube is `tube`, at most 1.
     #[must_use]
     pub fn torus(tube: f64) -> BaseShape {
-        BaseShape::made("torus", [tube, 0.0, 0.0, 0.0], |[tube, ..], sides| lathe::torus(tube, sides))
+        BaseShape::new("torus", [tube, 0.0, 0.0, 0.0], |[tube, ..], sides| lathe::torus(tube, sides))
     }
 
     /// A box with rounded edges, centered at the origin. `half` holds half the length of each edge, and its largest component must be 1.
     /// `rounding` is the radius of the edges.
     #[must_use]
     pub fn rounded_box(half: DVec3, rounding: f64) -> BaseShape {
-        BaseShape::made("rounded box", [half.x, half.y, half.z, rounding], |[x, y, z, rounding], sides| {
+        BaseShape::new("rounded box", [half.x, half.y, half.z, rounding], |[x, y, z, rounding], sides| {
             straight::rounded_box(DVec3::new(x, y, z), rounding, sides)
         })
     }
@@ -100,7 +100,7 @@ impl BaseShape {
     /// The coil of a spring around y, from y = -1 to 1, with a radius of 1. `wire` is the radius of its wire.
     #[must_use]
     pub fn coil(turns: u32, wire: f64) -> BaseShape {
-        BaseShape::made("coil", [f64::from(turns), wire, 0.0, 0.0], |[turns, wire, ..], sides| {
+        BaseShape::new("coil", [f64::from(turns), wire, 0.0, 0.0], |[turns, wire, ..], sides| {
             helix::coil(turns, wire, sides)
         })
     }

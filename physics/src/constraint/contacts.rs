@@ -281,7 +281,7 @@ impl Solver {
             let places = &structure.places;
             let Some(place) = places.iter().find(|place| place.constraint == joints + k) else { continue };
             let members = [place.bodies[0], place.bodies[1]].map(|member| &self.members[member]);
-            all.push(contact.seen(members, |row, out| {
+            all.push(contact.snapshot(members, |row, out| {
                 let direction = self.jacobian[place.direction + row * place.bodies.len() + 1];
                 *out += self.unknown[place.row + row] * direction.linear;
             }));

@@ -30,8 +30,8 @@ const MAX_ROUNDS: usize = 40;
 /// Islands whose matrix takes more multiplications to factorize are left to the sweeps: large heaps.
 const MAX_WORK: f64 = 5e6;
 
-/// After this number of steps of Newton's method, a round goes on only while each step leaves less than `FAST_REMAINDER` of the imbalance. Where many
-/// contacts slide on each other, as in grains that flow, the steps go back and forth, and more of them do not help.
+/// Most rounds end within this number of steps of Newton's method. A longer round ends as soon as a step leaves more than
+/// `FAST_REMAINDER` of the imbalance: where grains flow, steps go back and forth, and more of them do not help.
 const USUAL_STEPS: usize = 6;
 const FAST_REMAINDER: f64 = 0.1;
 

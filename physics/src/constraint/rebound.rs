@@ -253,7 +253,7 @@ impl Solver {
             let linear = of(row + i).last().map_or(DVec3::ZERO, |direction| direction.linear);
             *force += impulses[row + i] * linear;
         };
-        let seen = contact.seen(members, add);
+        let seen = contact.snapshot(members, add);
         let way =
             |body: &usize| velocities.get(body).map_or(DVec3::ZERO, |velocity| rebound.time * *velocity);
         let work = |row: usize| 0.5 * impulses[row] * (before[row] + after[row]);

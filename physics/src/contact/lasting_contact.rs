@@ -193,7 +193,7 @@ impl Constraint for LastingContact {
 impl LastingContact {
     /// Returns the snapshot of the contact: its place, normal, normal force and friction. The closure `add` adds the force that one row of
     /// the contact exerts on the second body.
-    pub(crate) fn seen(&self, members: [&Member; 2], add: impl Fn(usize, &mut DVec3)) -> ContactSnapshot {
+    pub(crate) fn snapshot(&self, members: [&Member; 2], add: impl Fn(usize, &mut DVec3)) -> ContactSnapshot {
         let meeting = self.meet(members.map(pose));
         let (mut force, mut friction) = (DVec3::ZERO, DVec3::ZERO);
         add(0, &mut force);

@@ -40,7 +40,13 @@ pub(super) fn deeper_also(word: &str, table: &'static TableSpec) -> Option<Vec<&
 
 /// Returns the label for an unknown name. `known` are the names that the scene declares, and `everywhere` those that exist in every scene.
 /// `noun` and `plural` say what the names stand for.
-pub(super) fn label(word: &str, known: &[&str], everywhere: &[&str], noun: &str, plural: &str) -> String {
+pub(super) fn for_unknown_name(
+    word: &str,
+    known: &[&str],
+    everywhere: &[&str],
+    noun: &str,
+    plural: &str,
+) -> String {
     match (nearest(word, known.iter().chain(everywhere).copied()), known) {
         (Some(near), _) => format!("did you mean `{near}`?"),
         (None, []) => format!("the scene declares no {plural}"),

@@ -411,7 +411,7 @@ fn reference(
             known.extend(emitters);
         }
         context.comparisons = context.comparisons.saturating_sub(known.len() + library.len());
-        suggest::label(word, &known, &library, noun, collection.plural())
+        suggest::for_unknown_name(word, &known, &library, noun, collection.plural())
     };
     let error = Diagnostic::error(Code::UnknownName, format!("there is no {noun} `{word}`"));
     let near = label.strip_prefix("did you mean `").and_then(|rest| rest.strip_suffix("`?"));

@@ -173,7 +173,7 @@ impl Measure {
         list
     }
 
-    /// Returns the same measure of one body, if it is a measure of each body of an aggregate.
+    /// Replaces "each body of an aggregate" in a measure by one body. Other measures stay as they are.
     pub fn of_one(self, body: usize) -> Measure {
         let one = Subject::One(body);
         match self {

@@ -173,15 +173,15 @@ fn parts<'a>(page: &'a [u8], at: &mut usize, joints: usize, counts: usize) -> io
     let number = u32::from_le_bytes(*number);
     let mut numbers = [0.0; NUMBERS_PER_HEADER];
     let rest = take(rest, &mut numbers)?;
-    let (bodies, mut rest) = runs_of(rest, &BODY_COLUMNS)?;
+    let (bodies, mut rest) = read_runs(rest, &BODY_COLUMNS)?;
     let mut of_joints = (Vec::new(), &rest[..0]);
     if joints > 0 {
-        (of_joints, rest) = runs_of(rest, &JOINT_COLUMNS)?;
+        (of_joints, rest) = read_runs(rest, &JOINT_COLUMNS)?;
     }
     let mut of_counts = (Vec::new(), &rest[..0]);
     let [mut contacts, mut impacts, mut laws] = [&rest[..0]; 3];
     if counts > 0 {
-        (of_counts, rest) = runs_of(rest, &COUNT_COLUMNS)?;
+        (of_counts, rest) = read_runs(rest, &COUNT_COLUMNS)?;
         (contacts, rest) = list(rest, CONTACT_NUMBERS)?;
         (impacts, rest) = list(rest, IMPACT_NUMBERS)?;
         (laws, rest) = list(rest, LAW_NUMBERS)?;
@@ -213,7 +213,7 @@ fn numbers_in<T, const N: usize>(bytes: &[u8], of: impl Fn(&[f64; N]) -> T) -> i
 type Runs<'a> = ((Vec<Run>, &'a [u8]), &'a [u8]);
 
 /// Reads a list of runs. Their masks select from the given columns.
-fn runs_of<'a>(bytes: &'a [u8], columns: &[usize]) -> io::Result<Runs<'a>> {
+fn read_runs<'a>(bytes: &'a [u8], columns: &[usize]) -> io::Result<Runs<'a>> {
     let (count, rest) = bytes.split_first_chunk::<4>().ok_or_else(damaged)?;
     let count = u32::from_le_bytes(*count) as usize;
     let (runs, values) = rest.split_at_checked(count.saturating_mul(5)).ok_or_else(damaged)?;
