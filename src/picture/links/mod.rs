@@ -104,6 +104,11 @@ impl Links {
         Links { parts, shapes, scales, pulleys, down, of_bodies, springs: plan::springs(scene) }
     }
 
+    /// Returns true if no spring and no joint is drawn.
+    pub(super) fn is_empty(&self) -> bool {
+        self.parts.is_empty()
+    }
+
     /// The thickness of the drawn springs, in the order of the forces. A spring force may have several springs.
     pub(super) fn springs(&self) -> &[SpringSize] {
         &self.springs
