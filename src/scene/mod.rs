@@ -48,8 +48,8 @@
 //!
 //! Forces given by formulas are evaluated for 64 bodies at once (`expression/wide.rs`). Each instruction works on columns of numbers, so
 //! decoding it costs little, and the compiler makes vector instructions of the loop. The result for each body has the same bits as an
-//! evaluation for this body alone. `force_formula.rs` gives such formulas to the dynamics as a `ForceLaw`; the check compares the force with the exact
-//! derivative of its potential.
+//! evaluation for this body alone. `force_formula.rs` gives such formulas to the dynamics as a `ForceLaw`; the check compares the force with
+//! the exact derivative of its potential.
 //!
 //! A number that may depend on time is a `Timed`: a constant, or a formula with its derivative (`expression/derive.rs`), which gives the
 //! velocity.

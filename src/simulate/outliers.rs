@@ -6,7 +6,7 @@ use super::Bounds;
 const MIN_MOVING_BODIES: usize = 8;
 /// The largest fraction of the moving bodies that may be outliers.
 const MAX_STRAY_FRACTION: f64 = 1.0 / 3.0;
-/// The largest ratio of the run's size without outliers to its size with outliers. If the ratio is larger, no body counts as a outlier.
+/// The largest ratio of the run's size without outliers to its size with outliers. If the ratio is larger, no body counts as an outlier.
 const MAX_SIZE_RATIO: f64 = 0.5;
 
 /// The space that each body takes during a run, by the index of the body.

@@ -19,9 +19,9 @@ pub(super) const MAX_KEPT_PATH: f64 = 1e-4;
 /// The colliders of all bodies, and the callbacks for their contacts.
 pub(super) struct KeptContacts {
     bodies: Vec<Caller>,
-    /// The orientation of each body at the last search for its contacts that its rotation caused.
+    /// The orientation of each body when its rotation last caused a new search for its contacts.
     pub(super) orientation: Vec<DQuat>,
-    /// The location of each round body at the last search for its contacts that its motion caused, m.
+    /// The location of each round body when its motion last caused a new search for its contacts, m.
     pub(super) location: Vec<DVec3>,
 }
 

@@ -30,12 +30,12 @@ pub(super) struct Block {
 enum Breaks {
     /// All but those between a number and its unit.
     Anywhere,
-    /// Also not those beside a sign of [`SIGNS`].
+    /// Neither those beside a sign of [`FORMULA_SIGNS`].
     BesideFormulas,
 }
 
 /// The signs that stay in one line with what is on either side of them.
-const SIGNS: [char; 12] = ['=', '≈', '≠', '<', '>', '≤', '≥', '∝', '·', '×', '/', '→'];
+const FORMULA_SIGNS: [char; 12] = ['=', '≈', '≠', '<', '>', '≤', '≥', '∝', '·', '×', '/', '→'];
 
 impl Block {
     /// Breaks a label into lines at spaces if it is wider than the free part of the picture. The lines get about the same length. A formula
@@ -153,8 +153,8 @@ fn splits(text: &str, follows: bool, allowed: Breaks) -> impl Iterator<Item = us
             "" => follows,
             before => before.ends_with(|c: char| c.is_numeric()),
         };
-        let is_in_formula =
-            allowed == Breaks::BesideFormulas && (before.ends_with(SIGNS) || after.starts_with(SIGNS));
+        let is_in_formula = allowed == Breaks::BesideFormulas
+            && (before.ends_with(FORMULA_SIGNS) || after.starts_with(FORMULA_SIGNS));
         let is_before_unit = is_after_number && after.starts_with(char::is_alphabetic);
         text[*at..].starts_with('\n') || !(is_before_unit || is_in_formula)
     })
