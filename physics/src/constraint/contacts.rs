@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::super::contact::LastingContact;
 use super::super::{BodyId, Breakdown, ContactSnapshot, Model, State};
 use super::Law;
+use super::events::VIOLATION_TOLERANCE;
 use super::friction::FrictionPair;
 use super::jacobian::{move_members, products};
 use super::row_modes::Mode;
@@ -142,11 +143,18 @@ impl Solver {
         bodies.iter().any(holds)
     }
 
-    /// Prepares friction for a step of `span` seconds, after [`begin`](Self::begin). Evaluating a state without a step does not need this
-    /// call.
+    /// Prepares friction and stops for a step of `span` seconds, after [`begin`](Self::begin). Evaluating a state without a step does not
+    /// need this call.
     pub(crate) fn set_out(&mut self, span: f64) {
         self.span = span;
         self.is_unsolved = false;
+        self.touched.clear();
+        if self.has_modes {
+            let laws = self.laws.iter().zip(&self.rows);
+            self.touched.extend(laws.map(|(law, row)| {
+                *law == Law::Inequality && row.violation <= row.tolerance(VIOLATION_TOLERANCE)
+            }));
+        }
         self.head();
     }
 

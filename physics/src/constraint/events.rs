@@ -12,9 +12,6 @@ use super::solver::Solver;
 /// exceeds this fraction of the largest rate of all constraints.
 pub(super) const VIOLATION_TOLERANCE: f64 = 1e-12;
 
-/// A stop that opens and does not approach may be passed by this many tolerances.
-const OPENING_TOLERANCES: f64 = 10.0;
-
 /// The tolerance for multipliers of the wrong sign, as a fraction of the largest acceleration. It exceeds the tolerance of
 /// [`Solver::decide`], so every event changes at least one mode.
 const MULTIPLIER_TOLERANCE: f64 = 1e-9;
@@ -68,9 +65,11 @@ impl Solver {
         let margin = |i: usize| match (self.modes[i], self.laws[i]) {
             (Mode::Open, Law::Inequality) => {
                 let margin = part(self.rows[i].violation, self.rows[i].tolerance(VIOLATION_TOLERANCE), 1.0);
-                // A stop that has just opened is still passed by as much as its event tolerates.
-                let leaves = rates[i] >= -VIOLATION_TOLERANCE * size * self.unit(i);
-                if leaves && margin > -OPENING_TOLERANCES { margin.max(0.0) } else { margin }
+                // A stop that was touched at the start of the step and opens is passed at first: by as much as its event tolerates, and by
+                // the error of the integration method.
+                let opens = rates[i] >= -VIOLATION_TOLERANCE * size * self.unit(i)
+                    && self.touched.get(i).is_some_and(|touched| *touched);
+                if opens { margin.max(0.0) } else { margin }
             }
             (Mode::Pushed(sign), _) => part(-sign * rates[i], size * self.unit(i), VIOLATION_TOLERANCE),
             (Mode::Held, Law::Inequality) => {

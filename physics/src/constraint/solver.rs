@@ -59,6 +59,8 @@ pub(crate) struct Solver {
     /// The law of each constraint row. `modes` holds the present mode of each row.
     pub(super) laws: Vec<Law>,
     pub(super) modes: Vec<Mode>,
+    /// For each constraint row, true if it was a touched stop (an inequality c ≥ 0 with c = 0) at the start of the present step.
+    pub(super) touched: Vec<bool>,
     /// The pairs of friction rows, in the order of their rows.
     pub(super) grips: Vec<FrictionPair>,
     /// The product J v of each constraint row, for slip velocities. Computed only while contacts slide.

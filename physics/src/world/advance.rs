@@ -41,6 +41,10 @@ impl World {
 
     fn step_from(&mut self, t: f64, dt: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
         self.settle();
+        if self.solver.has_failed() {
+            // The run ends here. A further step would forget why.
+            return;
+        }
         self.ledger.close(&self.model, t, &self.state);
         self.end = t + dt;
         self.solver.expect_step(dt);

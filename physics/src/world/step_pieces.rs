@@ -330,12 +330,12 @@ impl World {
     /// Sets the state to that after one step of `dt` seconds from the start of the piece.
     fn try_step(&mut self, t: f64, dt: f64) {
         self.state.take_over(&self.before, self.model.in_focus());
+        // Failures in an earlier trial step that was too long do not count.
+        self.solver.take_failure();
         if dt == 0.0 {
             return;
         }
         self.integrator.discontinuity();
-        // Failures in an earlier trial step that was too long do not count.
-        self.solver.take_failure();
         self.make_step(t, dt);
     }
 }
