@@ -10,6 +10,7 @@ use super::approach::{Approach, COORDINATE_ROUNDING, are_convex, close, places};
 use super::closest_points::{ClosestPoints, nearest};
 use super::crowd::Crowd;
 use super::group::Focus;
+use super::impacts::Hits;
 use super::lasting_contact::LastingContact;
 use super::laws::LawBook;
 use super::pairs::{Pairs, overlapping};
@@ -48,8 +49,8 @@ pub(crate) struct Collider {
     pub(super) fastest: f64,
     /// The impacts since the last call of `take_impacts`, in order of time.
     pub(super) impacts: Vec<Impact>,
-    /// For each pair of bodies, the number of impacts in the current step.
-    pub(super) hits: BTreeMap<[usize; 2], u32>,
+    /// For each pair of bodies, the impacts in the current step.
+    pub(super) hits: BTreeMap<[usize; 2], Hits>,
     /// The bodies advanced by Moreau's scheme, because they have too many events in the current step.
     pub(super) crowd: Crowd,
     /// The group of bodies that is being advanced; `None` while all bodies are advanced together.

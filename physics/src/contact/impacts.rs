@@ -13,7 +13,7 @@ use super::super::motion::Twist;
 use super::super::{BodyId, Breakdown, Model, State};
 use super::Impact;
 use super::closest_points::ClosestPoints;
-use super::collider::{Collider, SPEED_ROUNDING, Touching};
+use super::collider::{Collider, ContactScale, SPEED_ROUNDING, Touching};
 use super::impulse::{Bounce, changed, impulses};
 use super::lasting_contact::{LastingContact, spoke};
 use super::laws::LawResidual;
@@ -22,6 +22,10 @@ use super::touch::Touch;
 
 /// A rebound is suppressed if its speed is below this fraction of the largest closing speed, because it would be invisible.
 const MIN_REBOUND_SPEED: f64 = 1e-8;
+
+/// A rebound below this fraction of the largest closing speed is suppressed as well, if rounding errors of coordinates hide the separation
+/// before it.
+const SLOW_REBOUND: f64 = 1e-5;
 
 /// Contact points may stay closed if they separate at no more than this fraction of the largest closing speed. Elastic bodies are jammed if
 /// they approach faster than this after [`MAX_IMPACTS_PER_INSTANT`].
@@ -63,6 +67,14 @@ struct ImpactPoint {
     axes: [DVec3; 3],
     /// The vectors from both centers of mass to the contact point, world axes, m.
     arms: [DVec3; 2],
+}
+
+/// The impacts of two bodies in the current step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Hits {
+    count: u32,
+    /// The time of the last one, s.
+    time: f64,
 }
 
 /// The result of the impacts between touching bodies at one instant.
@@ -187,7 +199,7 @@ impl Collider {
 
     /// Returns the factor on the speed below which two bodies count as at rest. It grows with repeated impacts.
     fn haste(&self, pair: &Touching) -> f64 {
-        let hits = self.hits.get(&pair.bodies).copied().unwrap_or(0);
+        let hits = self.hits.get(&pair.bodies).map_or(0, |hits| hits.count);
         if pair.law.restitution == 1.0 {
             return 1.0;
         }
@@ -200,10 +212,29 @@ impl Collider {
     /// bodies together have had too many impacts.
     pub(crate) fn hits_too_often(&self, bodies: [usize; 2]) -> bool {
         let Some(law) = self.pairs.law(bodies).filter(|law| law.restitution < 1.0) else { return false };
-        let hits = self.hits.get(&bodies).copied().unwrap_or(0);
-        let all: u32 = self.hits.values().sum();
+        let hits = self.hits.get(&bodies).map_or(0, |hits| hits.count);
+        let all: u32 = self.hits.values().map(|hits| hits.count).sum();
         f64::from(hits) - bounces(law.restitution) > EXCESS_IMPACTS_BEFORE_MOREAU
             || all > IMPACTS_BEFORE_MOREAU
+    }
+
+    /// Returns true if two bodies that meet at `speed`, m/s, have separated since their last impact by no more than the rounding errors of
+    /// their coordinates. These errors, and no motion, then give the time of the impact and its speed.
+    fn hits_unseen(
+        &self,
+        bodies: [usize; 2],
+        speed: f64,
+        time: f64,
+        (model, state): (&Model, &State),
+    ) -> bool {
+        let (Some(last), [Some(a), Some(b)]) =
+            (self.hits.get(&bodies), bodies.map(|body| self.solids[body].as_ref()))
+        else {
+            return false;
+        };
+        // Bodies that meet again with the speed at which they left were apart by a quarter of the product of speed and time.
+        let height = 0.25 * speed * (time - last.time);
+        height <= ContactScale::of(bodies, [a, b], (model, state)).touch()
     }
 
     /// Returns a typical length of the smaller of two bodies, m.
@@ -225,8 +256,13 @@ impl Collider {
         let twists = |state: &State| pair.bodies.map(|body| twist(body, model, state));
         let before: Vec<DVec3> = places.iter().map(|place| place.rate(twists(state))).collect();
         let rest = MIN_REBOUND_SPEED * self.fastest * self.haste(pair);
-        let rests = pair.law.restitution < 1.0 && pair.law.restitution * speed <= rest;
-        *self.hits.entry(pair.bodies).or_default() += 1;
+        let rebound = pair.law.restitution * speed;
+        let is_slow = rebound <= rest
+            || (rebound <= SLOW_REBOUND * self.fastest
+                && self.hits_unseen(pair.bodies, speed, time, (model, state)));
+        let rests = pair.law.restitution < 1.0 && is_slow;
+        let hits = self.hits.entry(pair.bodies).or_default();
+        (hits.count, hits.time) = (hits.count + 1, time);
         let bounce = Bounce {
             restitution: if rests { 0.0 } else { pair.law.restitution },
             friction: pair.law.friction,
