@@ -5,7 +5,7 @@ use super::Law;
 use super::cone::LEAST_SLIP;
 use super::friction::FrictionPair;
 use super::jacobian;
-use super::row_modes::Mode;
+use super::row_modes::{Mode, STOP_TOLERANCE};
 use super::solver::Solver;
 
 /// An inequality c ≥ 0 counts as violated if c falls below 0 by this fraction of its size. A constraint counts as moving if its rate c'
@@ -66,8 +66,8 @@ impl Solver {
             (Mode::Open, Law::Inequality) => {
                 let margin = part(self.rows[i].violation, self.rows[i].tolerance(VIOLATION_TOLERANCE), 1.0);
                 // A stop that was touched at the start of the step and opens is passed at first: by as much as its event tolerates, and by
-                // the error of the integration method.
-                let opens = rates[i] >= -VIOLATION_TOLERANCE * size * self.unit(i)
+                // the error of the integration method. Rates that count as rest at an event cannot be another event.
+                let opens = rates[i] >= -STOP_TOLERANCE * size * self.unit(i)
                     && self.touched.get(i).is_some_and(|touched| *touched);
                 if opens { margin.max(0.0) } else { margin }
             }
