@@ -226,7 +226,7 @@ fn make(
         engine.name()
     );
     said.push_str(&format!("images    {done} of {all} are there\n"));
-    if let Some(speed) = settings.pace.in_words() {
+    if let Some(speed) = settings.shown.and_then(jabuka::render::film::Pace::in_words) {
         said.push_str(&format!("film      {} frames a second, {speed}\n", settings.pace.rate));
     }
     for name in &edits.kept {

@@ -103,6 +103,7 @@ impl Products {
             let seconds = frames.len() as f64 / pace.rate;
             let shown = pace.of_frames(sequence.frame_rate, scripts.iter().map(|script| script.frame));
             let speed = shown
+                .and_then(|pace| pace.at(&sequence.speed))
                 .and_then(jabuka::render::film::Pace::in_words)
                 .map_or(String::new(), |words| format!(", {words}"));
             terminal::result(&format!("film      {}, {seconds:.2} s{speed}\n", visible_path(film.path())));

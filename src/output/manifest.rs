@@ -10,7 +10,7 @@ use super::folder;
 use crate::Run;
 use crate::diagnostic::Diagnostic;
 use crate::run::RUN_WARNINGS;
-use crate::scene::{Scene, Shutter, is_possible_number_of_frames};
+use crate::scene::{Scene, Shutter, SpeedCurve, is_possible_number_of_frames};
 use crate::simulate::{EnergyScale, Survey};
 use crate::system::Dir;
 
@@ -197,6 +197,9 @@ pub struct Header {
     pub frames: usize,
     /// The number of frames per second of simulated time.
     pub frame_rate: f64,
+    /// The speed of the film against simulated time.
+    #[serde(default, skip_serializing_if = "SpeedCurve::is_even")]
+    pub speed: SpeedCurve,
     /// The number of frames per second of a film. `None` if the scene does not set one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub video_rate: Option<f64>,
@@ -251,6 +254,7 @@ impl Header {
             digest: scene.digest.clone(),
             frames: scene.simulation.timeline.frames(),
             frame_rate: scene.simulation.timeline.frame_rate,
+            speed: scene.simulation.timeline.speed.clone(),
             video_rate: scene.output.video_rate,
             width: Some(scene.output.width),
             height: Some(scene.output.height),

@@ -2,6 +2,8 @@
 
 use std::ops::RangeInclusive;
 
+use crate::scene::SpeedCurve;
+
 /// The frame rate of a film, and its speed relative to real time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace {
@@ -36,6 +38,11 @@ impl Pace {
         #[allow(clippy::cast_precision_loss, reason = "there are fewer frames than that")]
         let speed = self.rate * distance as f64 / scene_rate;
         distances.all(|other| other == distance).then_some(Pace { speed, ..self })
+    }
+
+    /// The pace of a film whose scene gives it a speed of its own. `None` if that speed changes.
+    pub fn at(self, speed: &SpeedCurve) -> Option<Pace> {
+        speed.constant().map(|speed| Pace { speed: speed * self.speed, ..self })
     }
 
     /// The speed of the film in words, such as `4 times slower than life`. `None` for real time, to one part in a thousand.

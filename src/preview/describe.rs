@@ -9,7 +9,7 @@ use super::run::{Outcome, PreviewRun, TrailValues};
 use crate::font::{Typeface, Weight};
 use crate::physics::{self, Shape};
 use crate::picture::{PlacedLight, Plan, Thing, has_texts, pale};
-use crate::scene::{Body, Color, Look, LookNumber, Scene, Sky, Visibility};
+use crate::scene::{Body, Color, Look, LookNumber, Scene, Sky, Timeline, Visibility};
 use crate::simulate::Bounds;
 use crate::surface::{Appearance, BaseShape, Detail, Piece, SurfacePattern, appearance_of, ground, pieces};
 
@@ -25,6 +25,8 @@ pub(super) struct Description<'a> {
     step: f64,
     frames: usize,
     frame_rate: f64,
+    /// The time of each frame, s, if the film has a speed of its own. Empty if frame k is at time k / `frame_rate`.
+    times: Vec<f64>,
     methods: Vec<Method>,
     size: [u32; 2],
     preset: &'static str,
@@ -167,6 +169,12 @@ struct Trail {
     every: usize,
 }
 
+/// Returns the time of each frame, s. Empty if the film shows simulated time evenly.
+fn times(timeline: &Timeline) -> Vec<f64> {
+    let frames = if timeline.speed.is_even() { 0 } else { timeline.frames() };
+    (0..frames).map(|frame| timeline.time(frame)).collect()
+}
+
 /// Describes a run, as far as it has been simulated.
 pub(super) fn describe(run: &PreviewRun) -> Description<'_> {
     let scene: &Scene = &run.scene;
@@ -180,6 +188,7 @@ pub(super) fn describe(run: &PreviewRun) -> Description<'_> {
         step: simulation.step,
         frames: simulation.timeline.frames(),
         frame_rate: simulation.timeline.frame_rate,
+        times: times(&simulation.timeline),
         methods: physics::Method::all().map(|m| Method { name: m.name, summary: m.summary }).collect(),
         size: [scene.output.width, scene.output.height],
         preset: preset.name(),

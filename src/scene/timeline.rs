@@ -1,12 +1,17 @@
 //! The times of the frames of a scene.
 
-/// The times of the frames of a scene: frame 0 is at time 0, and the frames follow at equal distances.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+use super::SpeedCurve;
+
+/// The times of the frames of a scene. Frame 0 is at time 0. The frames follow at equal distances in the time of the film, which is the simulated
+/// time unless the scene gives the film a speed.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Timeline {
     /// The duration of the simulation, s. The time of the last frame may differ, because it is rounded to a whole number of frames.
     pub duration: f64,
-    /// The number of frames per second of simulated time.
+    /// The number of frames per second of simulated time, at speed 1.
     pub frame_rate: f64,
+    /// The speed of the film.
+    pub speed: SpeedCurve,
 }
 
 /// The largest rounding error of a time, as a fraction of the interval between frames.
@@ -25,18 +30,31 @@ impl Timeline {
 
     /// Returns the number of frames, which may be larger than a scene may have.
     pub(super) fn frame_count(&self) -> f64 {
-        (self.duration * self.frame_rate).round() + 1.0
+        (self.speed.film_time(self.duration) * self.frame_rate).round() + 1.0
     }
 
     /// Returns the time of the frame with the index `frame`, s. It may be a frame after the last one.
     #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of frames")]
     pub fn time(&self, frame: usize) -> f64 {
-        frame as f64 / self.frame_rate
+        self.speed.time(frame as f64 / self.frame_rate)
     }
 
-    /// Returns the time between two frames, s.
+    /// Returns the time between two frames at speed 1, s. The dynamics advances by equal intervals of this length, so the speed of the film
+    /// does not affect the motion.
     pub fn interval(&self) -> f64 {
         1.0 / self.frame_rate
+    }
+
+    /// Returns the number of whole [intervals](Self::interval) before a time, s.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
+    pub fn intervals_before(&self, time: f64) -> usize {
+        (time * self.frame_rate).floor() as usize
+    }
+
+    /// Returns the time after this number of [intervals](Self::interval), s.
+    #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of intervals")]
+    pub fn interval_start(&self, number: usize) -> f64 {
+        number as f64 / self.frame_rate
     }
 
     /// Returns the time of the last frame, s.
@@ -45,10 +63,22 @@ impl Timeline {
     }
 
     /// Returns the index of the first frame at or after a time, s. `None` if there is none.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
     pub fn first_frame_from(&self, time: f64) -> Option<usize> {
-        let about = (time * self.frame_rate).floor() as usize;
-        (about..=about.saturating_add(1)).find(|frame| *frame < self.frames() && self.time(*frame) >= time)
+        let about = self.frame_before(time);
+        let near = about.saturating_sub(1)..=about.saturating_add(1);
+        near.into_iter().find(|frame| *frame < self.frames() && self.time(*frame) >= time)
+    }
+
+    /// Returns the indices of the frames in an interval after the start time, up to and including its end, s.
+    pub fn frames_within(&self, start: f64, end: f64) -> impl Iterator<Item = usize> {
+        let first = self.frame_before(start).saturating_sub(1);
+        let frames = (first..self.frames()).take_while(move |frame| self.time(*frame) <= end);
+        frames.filter(move |frame| self.time(*frame) > start)
+    }
+
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
+    fn frame_before(&self, time: f64) -> usize {
+        (self.speed.film_time(time) * self.frame_rate).floor() as usize
     }
 
     /// Returns the latest time of the simulation, s: the duration, or the time of the last frame if that is later.
@@ -61,16 +91,20 @@ impl Timeline {
         RELATIVE_ROUNDING / self.frame_rate
     }
 
-    /// Returns whether a time (s) is exactly that of a frame.
-    pub fn is_frame(&self, time: f64) -> bool {
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
-        let nearest = (time * self.frame_rate).round() as usize;
-        nearest < self.frames() && self.time(nearest) == time
+    /// Returns the index of the frame that is exactly at a time, s. `None` if there is none.
+    pub fn frame_at(&self, time: f64) -> Option<usize> {
+        let nearest = self.nearest(time);
+        (nearest < self.frames() && self.time(nearest) == time).then_some(nearest)
     }
 
     /// Returns the time of the nearest frame, s, if `time` differs from that time only by rounding. Otherwise returns `time`.
     pub fn nearest_frame(&self, time: f64) -> f64 {
-        let at_frame = (time * self.frame_rate).round() / self.frame_rate;
+        let at_frame = self.time(self.nearest(time));
         if (time - at_frame).abs() <= self.slack() { at_frame } else { time }
+    }
+
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
+    fn nearest(&self, time: f64) -> usize {
+        (self.speed.film_time(time) * self.frame_rate).round() as usize
     }
 }

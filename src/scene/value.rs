@@ -124,6 +124,12 @@ value!(Vec<f64> => Vec<f64>, Numbers,
         _ => None,
     }),
     |_given| None);
+value!(Vec<[f64; 2]> => Vec<[f64; 2]>, Pairs,
+    |node, kind| read::list_of(node, kind, |item, of| match of {
+        Kind::Numbers(_, bound) => read::numbers(item, *bound).ok(),
+        _ => None,
+    }),
+    |_given| None);
 value!(Vec<DVec3> => Vec<DVec3>, Vectors,
     |node, kind| read::list_of(node, kind, |item, of| match of {
         Kind::Numbers(_, bound) => read::vector(item, *bound),

@@ -33,7 +33,7 @@ impl Moments {
             scene.bodies.iter().filter_map(|body| Some(body.showing.ghosts?.every)).collect();
         intervals.sort_by(f64::total_cmp);
         intervals.dedup();
-        let timeline = scene.simulation.timeline;
+        let timeline = scene.simulation.timeline.clone();
         Moments { intervals, shutters: Vec::new(), others: Vec::new(), timeline }
     }
 
@@ -46,7 +46,7 @@ impl Moments {
     /// frame needs no new simulation.
     #[must_use]
     pub fn with(mut self, time: f64) -> Moments {
-        if self.timeline.is_frame(time) {
+        if self.timeline.frame_at(time).is_some() {
             return self;
         }
         let times: Vec<f64> = self.times_of(time).collect();
@@ -60,18 +60,16 @@ impl Moments {
         std::iter::once(time).chain(opened)
     }
 
-    /// The sorted times after a frame and before the next frame, s. After the last frame, a time that equals the end of the interval is
-    /// included, too.
-    pub(super) fn after(&self, frame: usize) -> Vec<f64> {
-        let [begin, end] = [frame, frame + 1].map(|frame| self.timeline.time(frame));
-        let is_within = |time: &f64| {
-            *time > begin && (*time < end || (*time == end && frame + 1 >= self.timeline.frames()))
-        };
+    /// The sorted times within an interval, s, including those of frames. The end of the interval is included if it is not the time of a frame.
+    pub(super) fn within(&self, interval: usize) -> Vec<f64> {
+        let [begin, end] = [interval, interval + 1].map(|interval| self.timeline.interval_start(interval));
+        let ends_at_frame = self.timeline.frame_at(end).is_some();
+        let is_within = |time: &f64| *time > begin && (*time < end || (*time == end && !ends_at_frame));
         let mut times: Vec<f64> = self.others.iter().copied().filter(is_within).collect();
+        let frames = self.timeline.frames_within(begin, end).map(|frame| self.timeline.time(frame));
+        times.extend(frames.filter(is_within));
         for shutter in &self.shutters {
-            // A shutter closes at the next frame at the latest. By rounding errors, it may close just after this frame, so the shutter of
-            // the frame before counts, too.
-            for opened in frame.saturating_sub(1)..=frame.min(self.timeline.frames() - 1) {
+            for opened in self.timeline.frames_within(begin - self.timeline.interval() - shutter.open, end) {
                 times.extend(shutter.moments(self.timeline.time(opened)).filter(is_within));
             }
         }
@@ -90,14 +88,14 @@ impl Moments {
         times
     }
 
-    /// The number of intervals between frames that must be simulated to reach all requested times.
+    /// The number of intervals that must be simulated to reach all frames and all requested times.
     pub(super) fn intervals(&self) -> usize {
-        let last = self.timeline.frames() - 1;
+        let end = self.timeline.end();
         let open = self.shutters.iter().map(|shutter| shutter.open).fold(0.0, f64::max);
-        let latest = self.others.iter().copied().fold(0.0, f64::max).max(self.timeline.time(last) + open);
-        let latest = if open > 0.0 || !self.others.is_empty() { latest } else { self.timeline.time(last) };
-        let mut intervals = last;
-        while self.timeline.time(intervals) < latest {
+        let latest = self.others.iter().copied().fold(0.0, f64::max).max(end + open);
+        let latest = if open > 0.0 || !self.others.is_empty() { latest } else { end };
+        let mut intervals = self.timeline.intervals_before(end);
+        while self.timeline.interval_start(intervals) < latest {
             intervals += 1;
         }
         intervals
@@ -118,8 +116,8 @@ mod tests {
     #[test]
     fn ghosts_stand_between_frames_and_not_at_them() {
         let moments = Moments::of(&scene("ghosts.every = 0.05"));
-        assert_eq!(moments.after(0), [0.05]);
-        assert_eq!(moments.after(2), [0.25]);
+        assert_eq!(moments.within(0), [0.05]);
+        assert_eq!(moments.within(2), [0.25]);
         assert_eq!(moments.intervals(), 4);
     }
 
@@ -130,21 +128,42 @@ mod tests {
             found.len() == expected.len() && found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12)
         };
         for (frame, expected) in [(0, [0.02, 0.06]), (1, [0.12, 0.16]), (4, [0.42, 0.46])] {
-            assert!(near(&moments.after(frame), &expected), "{:?}", moments.after(frame));
+            assert!(near(&moments.within(frame), &expected), "{:?}", moments.within(frame));
         }
-        assert!(moments.after(5).is_empty());
+        assert!(moments.within(5).is_empty());
         assert_eq!(moments.intervals(), 5);
         // A shutter that opens between two frames may close after the second one.
         let moments = moments.with(0.15);
-        assert!(near(&moments.after(1), &[0.12, 0.15, 0.16, 0.17]), "{:?}", moments.after(1));
-        assert!(near(&moments.after(2), &[0.21, 0.22, 0.26]), "{:?}", moments.after(2));
+        assert!(near(&moments.within(1), &[0.12, 0.15, 0.16, 0.17]), "{:?}", moments.within(1));
+        assert!(near(&moments.within(2), &[0.21, 0.22, 0.26]), "{:?}", moments.within(2));
+    }
+
+    /// The film runs at half the speed: every other frame is in the middle of an interval.
+    #[test]
+    fn slow_motion_has_frames_within_intervals() {
+        let scene = scene("[output]\nspeed = 0.5");
+        assert_eq!(scene.simulation.timeline.frames(), 9);
+        let moments = Moments::of(&scene);
+        assert_eq!(moments.intervals(), 4);
+        assert_eq!([0, 1].map(|interval| moments.within(interval)), [[0.05], [0.15]]);
+    }
+
+    /// The film runs at twice the speed: it has a frame at every other interval.
+    #[test]
+    fn a_fast_film_leaves_intervals_without_frames() {
+        let scene = scene("[output]\nspeed = 2");
+        assert_eq!(scene.simulation.timeline.frames(), 3);
+        let moments = Moments::of(&scene);
+        assert_eq!(moments.intervals(), 4);
+        assert!((0..4).all(|interval| moments.within(interval).is_empty()));
+        assert_eq!(moments.with(0.3).within(2), [0.3], "a still image between two frames");
     }
 
     #[test]
     fn a_single_time_is_seen_wherever_it_is() {
         let moments = Moments::of(&scene("")).with(0.123);
-        assert_eq!(moments.after(1), [0.123]);
-        assert!(moments.after(0).is_empty() && moments.after(2).is_empty());
+        assert_eq!(moments.within(1), [0.123]);
+        assert!(moments.within(0).is_empty() && moments.within(2).is_empty());
         // A requested time that equals a frame's time adds nothing, so the run of the scene serves.
         let own = Moments::of(&scene(""));
         assert_eq!(own.clone().with(0.2), own);

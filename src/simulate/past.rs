@@ -120,7 +120,7 @@ impl History {
             ghosts: Vec::new(),
             lagging: Lagging::of(scene),
             tallies: Tallies::new(scene),
-            timeline: scene.simulation.timeline,
+            timeline: scene.simulation.timeline.clone(),
         }
     }
 

@@ -23,7 +23,7 @@ impl Population {
     /// Prepares the particles of an emitter.
     pub(super) fn new(scene: &Scene, emitter: &Emitter) -> Population {
         let carrier = emitter.carrier.map(|body| scene.bodies[body.index()].presence.clone());
-        let timeline = scene.simulation.timeline;
+        let timeline = scene.simulation.timeline.clone();
         Population { source: emitter.source.clone(), carrier, timeline, lives: Arc::default() }
     }
 

@@ -1,5 +1,6 @@
 //! Records a run of a scene, and reads the recorded run.
 
+use std::collections::VecDeque;
 use std::io;
 use std::sync::Arc;
 
@@ -243,6 +244,8 @@ pub struct Recorder<'a> {
     simulation: Simulation<'a>,
     surveyor: Surveyor<'a>,
     recording: Arc<Recording>,
+    /// The recorded frames that have not been returned yet. Slow motion has several frames in an interval.
+    waiting: VecDeque<Frame>,
     resumed: Option<f64>,
 }
 
@@ -259,7 +262,8 @@ impl<'a> Recorder<'a> {
 
     fn of(scene: &'a Scene, simulation: Simulation<'a>, store: Box<dyn Store>) -> Recorder<'a> {
         let recording = Arc::new(Recording::new(Counts::of(scene), store));
-        Recorder { scene, simulation, surveyor: Surveyor::new(scene), recording, resumed: None }
+        let (surveyor, waiting) = (Surveyor::new(scene), VecDeque::new());
+        Recorder { scene, simulation, surveyor, recording, waiting, resumed: None }
     }
 
     /// Resumes a run from its checkpoint. The store must hold all recorded pages. `seen` receives every recorded frame. Returns `None` if
@@ -281,7 +285,7 @@ impl<'a> Recorder<'a> {
         let mut surveyor = Surveyor::new(scene);
         see_all(&recording, &mut surveyor, seen).ok()?;
         let resumed = recording.frames().checked_sub(1).map(|frame| scene.simulation.timeline.time(frame));
-        Some(Recorder { scene, simulation, surveyor, recording, resumed })
+        Some(Recorder { scene, simulation, surveyor, recording, waiting: VecDeque::new(), resumed })
     }
 
     /// Creates a checkpoint at the present frame. Returns `None` if the dynamics cannot be resumed from this state.
@@ -301,7 +305,8 @@ impl<'a> Recorder<'a> {
         recording: Arc<Recording>,
     ) -> Recorder<'a> {
         let simulation = Simulation::new(scene, moments, pair_counter);
-        Recorder { scene, simulation, surveyor: Surveyor::new(scene), recording, resumed: None }
+        let (surveyor, waiting) = (Surveyor::new(scene), VecDeque::new());
+        Recorder { scene, simulation, surveyor, recording, waiting, resumed: None }
     }
 
     /// The simulated time at which an interrupted run was resumed, s. `None` if the run was never interrupted.
@@ -319,13 +324,13 @@ impl<'a> Recorder<'a> {
     /// # Errors
     /// If the run becomes non-finite, or the store has no room for the recording.
     pub fn advance(&mut self) -> Result<Option<Frame>, SimulateError> {
-        let Self { simulation, surveyor, recording, .. } = self;
-        let (mut seen, mut failed): (_, Option<io::Error>) = (None, None);
-        while seen.is_none() && failed.is_none() {
+        let Self { simulation, surveyor, recording, waiting, .. } = self;
+        let mut failed: Option<io::Error> = None;
+        while waiting.is_empty() && failed.is_none() {
             let goes_on = simulation.advance(&mut |entry| {
                 failed = failed.take().or(recording.push(&entry).err());
                 if let Some(index) = entry.frame {
-                    seen = Some(Frame::of_entry(index, entry));
+                    waiting.push_back(Frame::of_entry(index, entry));
                 }
             })?;
             if !goes_on {
@@ -335,10 +340,11 @@ impl<'a> Recorder<'a> {
         if let Some(error) = failed {
             return Err(error.into());
         }
-        if let Some(frame) = &seen {
+        let frame = waiting.pop_front();
+        if let Some(frame) = &frame {
             surveyor.see(frame);
         }
-        Ok(seen)
+        Ok(frame)
     }
 
     /// The box around all bodies and particles in the frames so far. `None` if all bodies are planes.

@@ -23,6 +23,7 @@ pub(super) struct Simulation<'a> {
     scene: &'a Scene,
     dynamics: Box<dyn Dynamics>,
     moments: Moments,
+    /// The number of intervals of the timeline that the next advance completes.
     next: usize,
     intervals: usize,
     counts: ImpactCounts,
@@ -44,8 +45,8 @@ impl<'a> Simulation<'a> {
         Simulation { scene, dynamics, moments, next: 0, intervals, counts, angles, waiting: Vec::new() }
     }
 
-    /// Advances to the next frame. After the last frame, advances by one more interval if times in it are requested. Calls `see` with each
-    /// moment on the way, including the frame. Returns false after the end of the run.
+    /// Advances by an interval of the timeline, as far as frames and requested times need. Calls `see` with each moment on the way, including
+    /// frames. Returns false after the end of the run.
     pub(super) fn advance(&mut self, see: &mut dyn FnMut(Entry)) -> Result<bool, SimulateError> {
         if self.next > self.intervals {
             return Ok(false);
@@ -95,28 +96,28 @@ impl<'a> Simulation<'a> {
 
     fn advance_to_next(&mut self, see: &mut dyn FnMut(Entry)) -> Result<(), Breakdown> {
         let simulation = &self.scene.simulation;
+        let timeline = &simulation.timeline;
         if let Some(before) = self.next.checked_sub(1) {
-            let moments = self.moments.after(before);
+            let moments = self.moments.within(before);
             let mut between = Vec::new();
             let counts_impacts = simulation.contacts.is_some();
             let angles = &mut self.angles;
-            let done =
-                self.dynamics.advance(simulation.timeline.time(self.next), &moments, &mut |snapshot| {
-                    if counts_impacts {
-                        between.push(snapshot);
-                    } else {
-                        see(of_scene(self.scene, angles, snapshot));
-                    }
-                });
+            let done = self.dynamics.advance(timeline.interval_start(self.next), &moments, &mut |snapshot| {
+                if counts_impacts {
+                    between.push(snapshot);
+                } else {
+                    see(of_scene(self.scene, angles, snapshot));
+                }
+            });
             self.see_between(between, see);
             done?;
         }
-        if self.next < simulation.timeline.frames() {
+        if let Some(frame) = timeline.frame_at(timeline.interval_start(self.next)) {
             let snapshot = self.dynamics.snapshot()?;
             let impacts = self.dynamics.impacts();
             let entry = of_scene(self.scene, &mut self.angles, snapshot);
             let entry = self.with_impacts(entry, impacts);
-            see(Entry { frame: Some(self.next), ..entry });
+            see(Entry { frame: Some(frame), ..entry });
         }
         Ok(())
     }
@@ -151,5 +152,6 @@ fn of_scene(scene: &Scene, angles: &mut JointAngles, mut snapshot: Snapshot) -> 
         snapshot.bodies.pop();
     }
     angles.see(scene, &mut snapshot);
-    Entry { frame: None, snapshot, impacts: Vec::new(), counts: ImpactCounts::default() }
+    let frame = scene.simulation.timeline.frame_at(snapshot.time);
+    Entry { frame, snapshot, impacts: Vec::new(), counts: ImpactCounts::default() }
 }

@@ -74,6 +74,40 @@ fn a_run_of_the_callers_own_dynamics_is_not_simulated_again_with_those_of_the_sc
     assert!(Recorded::new(&scene).unwrap().at(0.55).is_ok());
 }
 
+/// At half the speed, every other frame is one of the usual frames, bit for bit. The frames between them differ by the error of interpolation.
+#[test]
+fn the_speed_of_the_film_does_not_change_the_motion() {
+    let ball = "gravity = [0, -9.81, 0]\n[body.ball]\nshape.sphere.radius = 0.2\nlocation = [0, 0.5, 0]\nvelocity = [1, 0, 0]\n";
+    let bob = "joint.string.rod.between = [[0, 2, 0], 'ball']\n";
+    for (first, last) in [
+        ("contacts = 'event-driven'\n", ""),
+        ("contacts = 'time-stepping'\n", ""),
+        ("integrator = 'explicit-euler'\n", bob),
+        ("integrator = 'dop853'\n", ""),
+    ] {
+        let run = |speed: &str| -> Vec<Frame> {
+            let text = format!("{last}output.speed = {speed}\n[simulation]\nduration = 1\n{first}{ball}");
+            let scene = Scene::parse(&text).unwrap();
+            let live: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
+            let recorded = Recorded::new(&scene).unwrap();
+            let read: Vec<Frame> = recorded.frames().map(Result::unwrap).collect();
+            assert_eq!(live, read, "{first}");
+            live
+        };
+        let (usual, slow) = (run("1"), run("0.5"));
+        assert_eq!([usual.len(), slow.len()], [26, 51]);
+        for (usual, slow) in usual.iter().zip(slow.iter().step_by(2)) {
+            assert_eq!((usual.time, &usual.bodies), (slow.time, &slow.bodies), "{first}");
+        }
+        let varied = run("[[0.2, 1], [0.5, 0.1], [0.8, 1]]");
+        for (before, after) in varied.iter().zip(&varied[1..]) {
+            let moved = after.bodies[0].location - before.bodies[0].location;
+            let passed = after.time - before.time;
+            assert!(passed > 0.0 && moved.length() < 6.0 * passed, "{first}: {passed}");
+        }
+    }
+}
+
 #[test]
 fn frames_know_their_time_and_the_forces() {
     let scene = Scene::parse(TUMBLE).unwrap();

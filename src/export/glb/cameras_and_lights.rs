@@ -168,7 +168,7 @@ fn lights(
     selection: &Selection,
     motion: &mut SampledMotion,
 ) -> Result<Vec<Light>, ExportError> {
-    let timeline = run.scene().simulation.timeline;
+    let timeline = &run.scene().simulation.timeline;
     let first = (0..timeline.frames()).find(|&frame| selection.contains(frame));
     let first = first.map_or(0.0, |frame| timeline.time(frame));
     let mut exposures = if plan.lights_move() { Some(run.exposures(selection)) } else { None };

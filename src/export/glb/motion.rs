@@ -66,7 +66,7 @@ impl SampledMotion {
         let mut poses: Vec<NodePose> = scene.bodies.iter().map(start).collect();
         for exposure in run.exposures(selection) {
             let frame = exposure?.frame;
-            times.push((frame.time * slower) as f32);
+            times.push((scene.simulation.timeline.speed.film_time(frame.time) * slower) as f32);
             for body in &frame.bodies {
                 poses[body.id] = pose(body.location, body.orientation);
             }

@@ -108,11 +108,10 @@ function axes(lines, { location, orientation, length: arm }) {
  * `palette` has the colors of its map, and `shades` the index of the color at each `every`-th frame.
  */
 export function trail(lines, run, { body, radius, color, tapers, palette, shades, every }, position, most) {
-  const rate = run.rate;
   const { duration, at = [0, 0, 0] } = run.description.bodies[body].trail ?? {};
   const isCentre = at.every((number) => number === 0);
   const pointOf = (pose) => (isCentre ? pose.slice(0, 3) : add(pose.slice(0, 3), turned(pose.slice(3), at)));
-  const first = duration ? Math.max(0, position - duration * rate) : 0;
+  const first = duration ? Math.max(0, run.positionAt(run.timeAt(position) - duration)) : 0;
   const colorAt = (frame) => (palette ? palette[shades[Math.min(Math.round(frame / every), shades.length - 1)]] ?? color : color);
   const [points, colors] = [[], []];
   const stride = Math.max(1, Math.ceil((position - first) / Math.min(1500, most)));

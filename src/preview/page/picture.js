@@ -161,7 +161,7 @@ function outlineCamera(lines, camera, [w, h]) {
 /** Draws the ghosts that the scene requests: earlier poses of bodies at regular intervals. */
 function strobes(run, position, at) {
   if (!run.ghosts.length) return;
-  const now = position / run.rate;
+  const now = run.timeAt(position);
   const past = run.ghosts.filter((ghost) => ghost.time < now - 1e-6 / run.rate);
   const apart = past.filter(({ body, location, orientation: o }) => {
     const here = at(body);
@@ -179,7 +179,7 @@ function strobes(run, position, at) {
 /** Sets the poses of the compared run, and shows the largest distance between a body and the same body of the shown run. */
 function placeOther(run) {
   const { other } = open;
-  const position = Math.min(player.time * other.rate, other.frames - 1);
+  const position = Math.min(other.positionAt(player.time), other.frames - 1);
   other.want(Math.floor(position + 1e-9), 0);
   const at = other.posesAt(position);
   const here = run.posesAt(player.position);

@@ -15,7 +15,7 @@ export class Player {
   }
 
   get time() {
-    return this.run ? this.position / this.run.rate : 0;
+    return this.run ? this.run.timeAt(this.position) : 0;
   }
 
   /** The index of the last frame that has been simulated. */
@@ -85,8 +85,9 @@ export class Player {
     // The new run may be shorter. The player then remembers the time, and returns to it when a longer run follows.
     const time = this.sought ?? this.time;
     this.run = run;
-    const place = Math.min(time * run.rate, run.frames - 1);
+    const wanted = run.positionAt(time);
+    const place = Math.min(wanted, run.frames - 1);
     this.position = this.playing ? place : Math.round(place);
-    this.sought = time * run.rate > run.frames - 1 ? time : undefined;
+    this.sought = wanted > run.frames - 1 ? time : undefined;
   }
 }

@@ -55,7 +55,7 @@ export class Plots {
 
   get end() {
     const run = this.runs[0]?.run;
-    return run ? (run.frames - 1) / run.rate || 1 : 1;
+    return run ? run.timeAt(run.frames - 1) || 1 : 1;
   }
 
   /** Sets the runs to plot (the shown run, and the compared one) and the chosen body. */

@@ -74,9 +74,31 @@ export class Run {
     return this.description.frameRate;
   }
 
+  /** Returns the simulated time (s) at a position of the film, in frames. */
+  timeAt(position) {
+    const { times } = this.description;
+    if (!times.length) return position / this.rate;
+    const before = Math.max(0, Math.min(Math.floor(position), times.length - 2));
+    return times.length < 2 ? times[0] : times[before] + (position - before) * (times[before + 1] - times[before]);
+  }
+
+  /** Returns the position of the film, in frames, at a simulated time (s). It may lie beyond the last frame. */
+  positionAt(time) {
+    const { times } = this.description;
+    if (!times.length) return time * this.rate;
+    if (times.length < 2) return 0;
+    let [before, after] = [0, times.length - 1];
+    while (after - before > 1) {
+      const middle = (before + after) >> 1;
+      if (times[middle] <= time) before = middle;
+      else after = middle;
+    }
+    return before + (time - times[before]) / (times[after] - times[before]);
+  }
+
   /** Returns the frame nearest to a time, s. */
   frameAt(time) {
-    return Math.max(0, Math.min(this.frames - 1, Math.round(time * this.rate)));
+    return Math.max(0, Math.min(this.frames - 1, Math.round(this.positionAt(time))));
   }
 
   /** Stores the progress of the run. Returns true if the run has a new description, because it has finished. */

@@ -166,14 +166,16 @@ pub fn settings(
     let last_frame = head.frames.saturating_sub(1);
     let number = frames.len();
     #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of frames")]
-    let end = last_frame as f64 / head.frame_rate;
+    let end = head.speed.time(last_frame as f64 / head.frame_rate);
+    let pace = Pace::new(head.frame_rate, video_rate.or(head.video_rate));
     Ok(Settings {
         job: job_name(&head.scene),
         frames,
         last_frame,
         end,
         digits: crate::emit::width(head.frames),
-        pace: Pace::new(head.frame_rate, video_rate.or(head.video_rate)),
+        pace,
+        shown: pace.at(&head.speed),
         video_quality: Quality::default(),
         chunk: chunk(number, 1),
         options,

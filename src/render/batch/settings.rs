@@ -46,8 +46,10 @@ pub struct Settings {
     pub end: f64,
     /// The number of digits of the frame number in file names.
     pub digits: usize,
-    /// The frame rate of the film, and its speed relative to the scene.
+    /// The frame rate of the film, and its speed relative to the time between two frames.
     pub pace: Pace,
+    /// The speed of the film relative to the scene. `None` if it changes.
+    pub shown: Option<Pace>,
     /// The quality of the film's encoding.
     pub video_quality: Quality,
     /// The number of frames that one job of the engine renders.
@@ -213,6 +215,7 @@ pub(super) mod tests {
             end: 0.36,
             digits: 4,
             pace: Pace::new(25.0, None),
+            shown: None,
             video_quality: Quality::Good,
             chunk: 10,
             options: "+W64 +H36 +A0.1 +AM1 +R3".to_owned(),

@@ -23,7 +23,7 @@ const USUAL_FRAMES: f64 = 500.0;
 const MAX_BODIES: usize = 1000;
 
 /// The times of the frames and the timestep (s) of a scene. The numbers of frames and timesteps follow from them.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(super) struct Counts {
     pub(super) timeline: Timeline,
     pub(super) step: f64,
@@ -32,18 +32,18 @@ pub(super) struct Counts {
 }
 
 impl Counts {
-    fn steps(self) -> f64 {
+    fn steps(&self) -> f64 {
         if self.needs_steps { self.timeline.duration / self.step.min(self.timeline.interval()) } else { 0.0 }
     }
 
     /// Returns whether the number of frames or of timesteps exceeds its limit.
-    pub(super) fn are_too_many(self) -> bool {
+    pub(super) fn are_too_many(&self) -> bool {
         self.timeline.frame_count() > MAX_FRAMES || self.steps() > MAX_STEPS
     }
 
     /// Returns a suitable timestep, s: a hundredth of the shortest time scale of the initial state, but at most the time from one frame to
     /// the next. If there is no time scale, the timestep is a tenth of that time.
-    fn sensible_step(self, bodies: &[Body], forces: &[Force]) -> f64 {
+    fn sensible_step(&self, bodies: &[Body], forces: &[Force]) -> f64 {
         let shortest = shortest_time(bodies, forces);
         let step =
             if shortest.is_finite() { shortest / STEPS_OF_A_TIME } else { 0.1 * self.timeline.interval() };
@@ -62,18 +62,19 @@ pub(super) fn check(
     let view = root.table(&scene::SIMULATION);
     let frames = counts.timeline.frame_count();
     if frames > MAX_FRAMES {
-        let Timeline { duration, frame_rate } = counts.timeline;
+        let Timeline { duration, frame_rate, ref speed } = counts.timeline;
         let message =
             format!("the scene has {} frames; at most {} are written", count(frames), count(MAX_FRAMES));
-        let rate = written(one_digit(USUAL_FRAMES / duration));
-        let longest = written(digit_below((MAX_FRAMES - 1.0) / frame_rate));
+        let film = speed.film_time(duration);
+        let rate = written(one_digit(USUAL_FRAMES / film));
+        let longest = written(digit_below((MAX_FRAMES - 1.0) / frame_rate * duration / film));
         let help = format!(
             "frames = duration × frame_rate + 1: `frame_rate = {rate}` makes some {USUAL_FRAMES}, \
              or `duration = {longest}` fits"
         );
         let error = Diagnostic::error(Code::TooManyFrames, message).help(help);
-        let timeline = Timeline { frame_rate: one_digit(USUAL_FRAMES / duration), ..counts.timeline };
-        let slower = Counts { timeline, ..counts };
+        let timeline = Timeline { frame_rate: one_digit(USUAL_FRAMES / film), ..counts.timeline.clone() };
+        let slower = Counts { timeline, ..counts.clone() };
         let mut values = vec![(&simulation::FRAME_RATE.spec, rate)];
         if slower.steps() > MANY_STEPS && !view.has(&simulation::STEP) {
             values.push((&simulation::STEP.spec, written(one_digit(slower.sensible_step(bodies, forces)))));
@@ -103,12 +104,12 @@ pub(super) fn check(
         let help = format!(
             "with `step = {}`, there are {}",
             written(step),
-            count(Counts { step, ..counts }.steps().ceil())
+            count(Counts { step, ..counts.clone() }.steps().ceil())
         );
         let warning = Diagnostic::warning(Code::TooManySteps, message).help(help);
         point(warning, &view, &[&simulation::DURATION.spec])
     };
-    let suits = Counts { step, ..counts }.steps() <= MANY_STEPS;
+    let suits = Counts { step, ..counts.clone() }.steps() <= MANY_STEPS;
     let values = [(&simulation::STEP.spec, written(step))];
     context.diagnostics.push(if suits { with_values(said, root, &view, &values, context) } else { said });
 }

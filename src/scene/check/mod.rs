@@ -32,6 +32,7 @@ mod sdl;
 mod shape;
 mod showing;
 mod simulation;
+mod speed;
 mod stepping;
 mod suggest;
 mod templates;
@@ -334,7 +335,8 @@ fn build(
     context: &mut Context<'_>,
 ) -> Scene {
     let root = View::new(&SCENE, Some(root));
-    let (simulation, counts) = simulation::read(&root, needs_steps(&root));
+    let speed = speed::read(&root, context);
+    let (simulation, counts) = simulation::read(&root, needs_steps(&root), speed);
     simulation::check(&root.table(&scene::SIMULATION), &simulation, context);
     let mut materials = material::read(&root, context);
     let bodies = body::read(&root, &simulation, &mut materials, context);

@@ -8,7 +8,7 @@ use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::physics::{METHODS, Method};
 use crate::scene::grammar::scene::{scene, simulation};
-use crate::scene::{ContactLaw, SimulationSettings, Timeline};
+use crate::scene::{ContactLaw, SimulationSettings, SpeedCurve, Timeline};
 
 /// The default integrator of scenes with joints or event-driven contacts. It is of second order, because impacts and loads are only as
 /// accurate as the motion between them.
@@ -16,7 +16,7 @@ const DEFAULT_CONSTRAINED_INTEGRATOR: &str = "velocity-verlet";
 
 /// Reads the simulation's settings, and the values that give the numbers of frames and timesteps. `needs_steps` is false if no body moves
 /// freely.
-pub(super) fn read(root: &View<'_>, needs_steps: bool) -> (SimulationSettings, Counts) {
+pub(super) fn read(root: &View<'_>, needs_steps: bool, speed: SpeedCurve) -> (SimulationSettings, Counts) {
     let view = root.table(&scene::SIMULATION);
     let contacts = contact::law(&view);
     let is_constrained = match contacts {
@@ -32,6 +32,7 @@ pub(super) fn read(root: &View<'_>, needs_steps: bool) -> (SimulationSettings, C
         timeline: Timeline {
             duration: view.get(&simulation::DURATION),
             frame_rate: view.get(&simulation::FRAME_RATE),
+            speed,
         },
         step: if method.adaptive { f64::INFINITY } else { view.get(&simulation::STEP) },
         tolerance: view.get(&simulation::TOLERANCE),
@@ -39,8 +40,7 @@ pub(super) fn read(root: &View<'_>, needs_steps: bool) -> (SimulationSettings, C
         gravity: view.get(&simulation::GRAVITY),
         contacts,
     };
-    let SimulationSettings { timeline, step, .. } = simulation;
-    let counts = Counts { timeline, step, needs_steps };
+    let counts = Counts { timeline: simulation.timeline.clone(), step: simulation.step, needs_steps };
     if counts.are_too_many() {
         // Set the duration to 0, so that later code does not count an excessive number of frames.
         simulation.timeline.duration = 0.0;

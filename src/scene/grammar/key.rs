@@ -42,6 +42,7 @@ pub(in crate::scene) enum ReadAs {
     Integers,
     Numbers,
     Vectors,
+    Pairs,
 }
 
 /// What a key can be declared to be read as.
@@ -118,6 +119,7 @@ impl Kind {
             Kind::List { of: Kind::Integer(..), .. } => ReadAs::Integers,
             Kind::List { of: Kind::Number(_), .. } => ReadAs::Numbers,
             Kind::List { of: Kind::Numbers(3, _), .. } => ReadAs::Vectors,
+            Kind::List { of: Kind::Numbers(2, _), .. } => ReadAs::Pairs,
             _ => ReadAs::Any,
         };
         wanted as u8 == ReadAs::Any as u8 || own as u8 == wanted as u8

@@ -3,8 +3,8 @@
 //! To add a key, describe it in the file of its table, read it in `scene/check`, and add a scene that uses it.
 
 use super::Kind::{
-    Asset, Boolean, Choice, Color, Either, Include, Integer, List, Named, Number, Partial, Sdl, Table, Text,
-    Variables,
+    Asset, Boolean, Choice, Color, Either, Include, Integer, List, Named, Number, Numbers, Partial, Sdl,
+    Table, Text, Variables,
 };
 use super::bodies;
 use super::camera;
@@ -286,6 +286,14 @@ table! {
     .unit("frames/s")
     .default("`simulation.frame_rate`, or 25 if that is not from 1 to 120")
     .also(&["film_rate", "playback_rate", "fps"]),
+    SPEED: Any = KeySpec::new(
+        "speed",
+        Either(&[POSITIVE, List { of: &Numbers(2, Bound::NonNegative), min: 1, max: 10_000 }]),
+        "The speed of the film: 0.1 is slow motion by a factor of 10. A list of [time, speed] slows down around an \
+         event: between two times of the simulation, the speed changes evenly",
+    )
+    .default("1")
+    .also(&["speeds", "tempo"]),
     DECIMAL: value::Text = KeySpec::new(
         "decimal",
         Choice(decimal_signs),

@@ -41,8 +41,8 @@ const SLOW_MOTION: &[&str] = &[
     "timescale",
 ];
 /// The help text for the words of [`SLOW_MOTION`].
-const SLOW_MOTION_HELP: &str = "a film is slow if it shows fewer frames per second than the scene has: with `frame_rate = 100` in \
-                      [simulation] and `video_rate = 25` in [output], it runs at a quarter of the speed";
+const SLOW_MOTION_HELP: &str = "`speed = 0.25` in [output] shows everything at a quarter of its speed, and `speed = [[0, 1], [2, 0.1], [3, 1]]` slows \
+     down around t = 2 s";
 
 static NOT_BUILT: &[NotBuilt] = &[
     NotBuilt {
