@@ -62,7 +62,7 @@ pub(super) fn summary(
         particles = particles(scene),
         steps = if scene.simulation.method.adaptive {
             format!("as the tolerance of {} asks for", short(scene.simulation.tolerance))
-        } else if scene.simulation.method.take_over.is_some() {
+        } else if scene.simulation.method.take_over.is_some() || !scene.simulation.timeline.speed.is_even() {
             format!("{} s", short(scene.simulation.step))
         } else {
             format!("{} s, {} a frame", short(survey.timestep), survey.steps_per_frame)

@@ -54,7 +54,7 @@ impl Counts {
 /// Reports too many frames or timesteps, and suggests a frame rate or a timestep.
 pub(super) fn check(
     root: &View<'_>,
-    counts: Counts,
+    counts: &Counts,
     bodies: &[Body],
     forces: &[Force],
     context: &mut Context<'_>,

@@ -345,7 +345,7 @@ fn build(
     let emitters = emitter::read(&root, &simulation, &bodies, context);
     let forces = force::read(&root, &bodies, &emitters, &simulation, context);
     context.forces_are_wrong |= context.has_errors(before);
-    counts::check(&root, counts, &bodies, &forces, context);
+    counts::check(&root, &counts, &bodies, &forces, context);
     // If a force has an error, skip these checks: that force may be the one that uses a mass or a charge.
     if !context.forces_are_wrong {
         planets::check(&root, &simulation, &bodies, &forces, context);
