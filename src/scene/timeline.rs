@@ -1,6 +1,6 @@
 //! The times of the frames of a scene.
 
-use super::SpeedCurve;
+use super::{Shutter, SpeedCurve};
 
 /// The times of the frames of a scene. Frame 0 is at time 0. The frames follow at equal distances in the time of the film, which is the simulated
 /// time unless the scene gives the film a speed.
@@ -55,6 +55,12 @@ impl Timeline {
     #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of intervals")]
     pub fn interval_start(&self, number: usize) -> f64 {
         number as f64 / self.frame_rate
+    }
+
+    /// Returns the times of the moments in one image with motion blur, s. `begin` is the time at which the shutter opens. It is open in the
+    /// time of the film: slow motion has less blur.
+    pub fn exposure(&self, shutter: Shutter, begin: f64) -> impl ExactSizeIterator<Item = f64> {
+        shutter.moments(self.speed.film_time(begin)).map(|film| self.speed.time(film))
     }
 
     /// Returns the time of the last frame, s.

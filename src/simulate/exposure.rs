@@ -6,7 +6,7 @@ use super::particles::Clouds;
 use super::past::History;
 use super::recording::{Reader, Recording};
 use super::{Frame, SimulateError};
-use crate::scene::Shutter;
+use crate::scene::{Shutter, Timeline};
 
 /// A frame, or a moment between frames, with access to the recorded moments after it.
 pub struct Exposure {
@@ -18,6 +18,7 @@ pub struct Exposure {
     clouds: Clouds,
     /// The recording, and the number of the first moment after the shutter opens.
     rest: (Arc<Recording>, usize),
+    timeline: Timeline,
 }
 
 impl Exposure {
@@ -26,8 +27,9 @@ impl Exposure {
         history: History,
         clouds: Clouds,
         rest: (Arc<Recording>, usize),
+        timeline: &Timeline,
     ) -> Exposure {
-        Exposure { frame, history, clouds, rest }
+        Exposure { frame, history, clouds, rest, timeline: timeline.clone() }
     }
 
     /// Reads the moments at which a camera with this shutter takes its samples. Each moment has the index of the frame at which the
@@ -38,8 +40,8 @@ impl Exposure {
         reader.seek(*next);
         let (mut history, clouds) = (self.history.clone(), self.clouds.clone());
         let index = self.frame.index;
-        shutter
-            .moments(self.frame.time)
+        self.timeline
+            .exposure(shutter, self.frame.time)
             .map(move |time| moment(&mut reader, &mut history, &clouds, index, time))
     }
 }

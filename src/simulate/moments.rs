@@ -56,7 +56,7 @@ impl Moments {
 
     /// Returns a time (s), and the sample times of cameras whose shutters open then.
     pub(super) fn times_of(&self, time: f64) -> impl Iterator<Item = f64> {
-        let opened = self.shutters.iter().flat_map(move |shutter| shutter.moments(time));
+        let opened = self.shutters.iter().flat_map(move |shutter| self.timeline.exposure(*shutter, time));
         std::iter::once(time).chain(opened)
     }
 
@@ -69,8 +69,10 @@ impl Moments {
         let frames = self.timeline.frames_within(begin, end).map(|frame| self.timeline.time(frame));
         times.extend(frames.filter(is_within));
         for shutter in &self.shutters {
-            for opened in self.timeline.frames_within(begin - self.timeline.interval() - shutter.open, end) {
-                times.extend(shutter.moments(self.timeline.time(opened)).filter(is_within));
+            let speed = &self.timeline.speed;
+            let earliest = speed.time(speed.film_time(begin) - self.timeline.interval() - shutter.open);
+            for opened in self.timeline.frames_within(earliest, end) {
+                times.extend(self.timeline.exposure(*shutter, self.timeline.time(opened)).filter(is_within));
             }
         }
         let slack = self.timeline.slack();
@@ -92,7 +94,8 @@ impl Moments {
     pub(super) fn intervals(&self) -> usize {
         let end = self.timeline.end();
         let open = self.shutters.iter().map(|shutter| shutter.open).fold(0.0, f64::max);
-        let latest = self.others.iter().copied().fold(0.0, f64::max).max(end + open);
+        let closed = self.timeline.speed.time(self.timeline.speed.film_time(end) + open);
+        let latest = self.others.iter().copied().fold(0.0, f64::max).max(closed);
         let latest = if open > 0.0 || !self.others.is_empty() { latest } else { end };
         let mut intervals = self.timeline.intervals_before(end);
         while self.timeline.interval_start(intervals) < latest {

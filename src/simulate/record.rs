@@ -163,7 +163,13 @@ impl<'a> Recorded<'a> {
                             true => (frames.history().clone(), frames.clouds().clone()),
                             false => (History::default(), Clouds::new(scene)),
                         };
-                        return Some(Ok(Exposure::new(frame, history, clouds, rest)));
+                        return Some(Ok(Exposure::new(
+                            frame,
+                            history,
+                            clouds,
+                            rest,
+                            &scene.simulation.timeline,
+                        )));
                     }
                     Err(error) => return Some(Err(error)),
                 }
@@ -206,7 +212,7 @@ impl<'a> Recorded<'a> {
 fn exposure(scene: &Scene, recording: &Arc<Recording>, moment: usize) -> Result<Exposure, SimulateError> {
     let frames = Frames::recorded(scene, recording);
     let (frame, history, clouds) = frames.recorded_moment(moment, recording.frame_at(moment))?;
-    Ok(Exposure::new(frame, history, clouds, (Arc::clone(recording), moment + 1)))
+    Ok(Exposure::new(frame, history, clouds, (Arc::clone(recording), moment + 1), &scene.simulation.timeline))
 }
 
 /// Reads all frames of a recording, and passes each to the surveyor and to `seen`.

@@ -8,10 +8,15 @@ use jabuka::diagnostic::{Code, Diagnostic};
 use serde_json::{Value, json};
 use toml::de::{DeTable, DeValue};
 
-/// Bad scenes that the check rejects with one of the [`STRUCTURAL`] codes and the schema cannot reject: JSON has no dates, and a schema
-/// cannot compute the value of a formula.
-const BEYOND: [&str; 4] =
-    ["axis_without_angle", "date_and_time", "formula_not_finite", "formula_with_a_value_out_of_range"];
+/// Bad scenes that the check rejects with one of the [`STRUCTURAL`] codes and the schema cannot reject: JSON has no dates, a schema cannot
+/// compute the value of a formula, and it has the same bounds for all numbers of a list.
+const BEYOND: [&str; 5] = [
+    "axis_without_angle",
+    "date_and_time",
+    "film_speed",
+    "formula_not_finite",
+    "formula_with_a_value_out_of_range",
+];
 
 /// Codes of mistakes that are visible in a single key or value, so that a schema can find them.
 const STRUCTURAL: [Code; 14] = [
