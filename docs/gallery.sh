@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Makes docs/gallery.png, which shows one frame of every scene of the gallery. It needs POV-Ray and ImageMagick.
+# Makes a picture of every scene of the gallery in docs/gallery, and docs/gallery.png, which shows all of them. It needs POV-Ray and
+# ffmpeg.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -13,14 +14,17 @@ moments='parabola:4.4 damped_spring:0.4 tumbling_box:7.04 wing_nut:3.5 explicit_
     plank:2 galton:17 domino_spiral:12 wrecking_ball:1.7 marble_run:3 hourglass:2 oranges:2.4 coins:2.2 bumpy_road:3
     chain_bridge:3 conveyor:5 rotating_drum:4 house_of_cards:1 fountain:3 sparks:2 leonids:4 rain:2 two_galaxies:6 damped_oscillator:5.2 phase_portrait:8 forces_on_a_slope:0.3 field_lines:2.6 equal_areas:5.2 resonance:20.1 copper_cluster:4'
 
+mkdir -p docs/gallery
 folder=$(mktemp -d)
 trap 'rm -r "$folder"' EXIT
-pictures=()
+count=0
 for entry in $moments; do
     scene=${entry%%:*}
-    cargo run --quiet --release -- still "scenes/$scene.toml" --time "${entry##*:}" --size 480x270 \
-        -o "$folder/$scene.png" >/dev/null
-    pictures+=("$folder/$scene.png")
+    picture=$(printf '%s/%03d.png' "$folder" "$count")
+    cargo run --quiet --release -- still "scenes/$scene.toml" --time "${entry##*:}" --size 480x270 -o "$picture" >/dev/null
+    ffmpeg -v error -y -i "$picture" -vf scale=320:180:flags=lanczos -q:v 3 "docs/gallery/$scene.jpg"
+    count=$((count + 1))
 done
-montage "${pictures[@]}" -tile 6x -geometry 256x144+2+2 "$folder/gallery.png"
-convert "$folder/gallery.png" -strip -dither FloydSteinberg -colors 256 -define png:compression-level=9 PNG8:docs/gallery.png
+tiles="scale=256:144:flags=lanczos,tile=6x$(((count + 5) / 6)):padding=4:margin=2:color=white"
+ffmpeg -v error -y -i "$folder/%03d.png" -frames:v 1 \
+    -filter_complex "$tiles,split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=dither=floyd_steinberg" docs/gallery.png

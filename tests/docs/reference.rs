@@ -37,7 +37,7 @@ fn the_page_of_materials_is_up_to_date() {
     is_up_to_date("materials.md", &page);
 }
 
-fn is_up_to_date(name: &str, page: &str) {
+pub(crate) fn is_up_to_date(name: &str, page: &str) {
     let path = format!("{}/docs/{name}", env!("CARGO_MANIFEST_DIR"));
     if std::env::var_os("JABUKA_UPDATE_DOCS").is_some() {
         std::fs::write(&path, page).expect("docs/ can be written to");
