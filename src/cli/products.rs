@@ -90,7 +90,7 @@ impl Products {
             // If only every n-th frame is rendered, the frame rate is divided by n, so that the film keeps its duration. A rate from the
             // command line is used as it is.
             let rate = self.rate.or(sequence.video_rate.map(|rate| rate / every as f64));
-            let pace = film.pace(sequence.frame_rate / every as f64, rate);
+            let pace = film.pace(sequence.timeline.frame_rate / every as f64, rate);
             let progress = Progress::new(frames.len());
             progress.phase("film");
             let seen = std::cell::Cell::new(0);
@@ -101,9 +101,10 @@ impl Products {
             progress.finish();
             made.map_err(|error| failed(&error))?;
             let seconds = frames.len() as f64 / pace.rate;
-            let shown = pace.of_frames(sequence.frame_rate, scripts.iter().map(|script| script.frame));
+            let shown =
+                pace.of_frames(sequence.timeline.frame_rate, scripts.iter().map(|script| script.frame));
             let speed = shown
-                .and_then(|pace| pace.at(&sequence.speed))
+                .and_then(|pace| pace.at(&sequence.timeline.speed))
                 .and_then(jabuka::render::film::Pace::in_words)
                 .map_or(String::new(), |words| format!(", {words}"));
             terminal::result(&format!("film      {}, {seconds:.2} s{speed}\n", visible_path(film.path())));

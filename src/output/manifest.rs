@@ -10,7 +10,7 @@ use super::folder;
 use crate::Run;
 use crate::diagnostic::Diagnostic;
 use crate::run::RUN_WARNINGS;
-use crate::scene::{Scene, Shutter, SpeedCurve, is_possible_number_of_frames};
+use crate::scene::{Scene, Shutter, SpeedCurve, Timeline, is_possible_number_of_frames};
 use crate::simulate::{EnergyScale, Survey};
 use crate::system::Dir;
 
@@ -200,6 +200,9 @@ pub struct Header {
     /// The speed of the film against simulated time.
     #[serde(default, skip_serializing_if = "SpeedCurve::is_even")]
     pub speed: SpeedCurve,
+    /// The duration of the simulation, s, if the film has a speed of its own. Its last frame shows the end of the simulation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub duration: Option<f64>,
     /// The number of frames per second of a film. `None` if the scene does not set one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub video_rate: Option<f64>,
@@ -243,6 +246,7 @@ impl Header {
 
     /// Makes a header from the scene alone, without the energy error and the warnings of its run.
     pub(super) fn of(scene: &Scene, view: Option<&str>, shutter: Option<Shutter>) -> Header {
+        let timeline = &scene.simulation.timeline;
         Header {
             generator: GENERATOR.to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -252,9 +256,10 @@ impl Header {
             view: view.map(str::to_owned),
             set: scene.overrides.clone(),
             digest: scene.digest.clone(),
-            frames: scene.simulation.timeline.frames(),
-            frame_rate: scene.simulation.timeline.frame_rate,
-            speed: scene.simulation.timeline.speed.clone(),
+            frames: timeline.frames(),
+            frame_rate: timeline.frame_rate,
+            speed: timeline.speed.clone(),
+            duration: (!timeline.speed.is_even()).then_some(timeline.duration),
             video_rate: scene.output.video_rate,
             width: Some(scene.output.width),
             height: Some(scene.output.height),
@@ -266,6 +271,12 @@ impl Header {
             warnings: Vec::new(),
             planned: None,
         }
+    }
+
+    /// Returns the times of the frames.
+    pub fn timeline(&self) -> Timeline {
+        let duration = self.duration.unwrap_or_default();
+        Timeline { duration, frame_rate: self.frame_rate, speed: self.speed.clone() }
     }
 
     /// Returns true if jabuka can have written the header. Impossible numbers are refused, since a huge number of frames would make

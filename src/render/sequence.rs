@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::RenderError;
 use crate::emit::frame_name;
 use crate::output::{Manifest, scripts};
-use crate::scene::SpeedCurve;
+use crate::scene::Timeline;
 use crate::simulate::Selection;
 
 /// The scripts of all frames of a film, or of the selected ones.
@@ -18,10 +18,8 @@ pub struct Sequence {
     scripts: Vec<Script>,
     /// The number of the film's last frame.
     pub last: usize,
-    /// The number of frames per second of simulated time.
-    pub frame_rate: f64,
-    /// The speed of the film against simulated time.
-    pub speed: SpeedCurve,
+    /// The times of the frames.
+    pub timeline: Timeline,
     /// The number of frames per second of a film. `None` if the scene does not set one.
     pub video_rate: Option<f64>,
     /// The width and height of the images, pixels.
@@ -88,8 +86,10 @@ impl Sequence {
         Ok(Sequence {
             scripts,
             last,
-            frame_rate: manifest.as_ref().map_or(25.0, |manifest| manifest.head.frame_rate),
-            speed: manifest.as_ref().map_or_else(SpeedCurve::default, |manifest| manifest.head.speed.clone()),
+            timeline: manifest.as_ref().map_or_else(
+                || Timeline { frame_rate: 25.0, ..Timeline::default() },
+                |manifest| manifest.head.timeline(),
+            ),
             video_rate: manifest.as_ref().and_then(|manifest| manifest.head.video_rate),
             size: size.unwrap_or([1280, 720]),
             transparent: manifest.as_ref().and_then(|manifest| manifest.head.transparent).unwrap_or(false),
@@ -117,9 +117,8 @@ impl Sequence {
     }
 
     /// Returns the simulated time of a frame, s.
-    #[allow(clippy::cast_precision_loss, reason = "a film has fewer frames than that")]
     pub fn time(&self, frame: usize) -> f64 {
-        self.speed.time(frame as f64 / self.frame_rate)
+        self.timeline.time(frame)
     }
 
     /// Returns true if a name such as `frame_0007` belongs to a frame of the film, requested or not.

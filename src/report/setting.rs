@@ -69,7 +69,8 @@ impl Setting {
     /// Returns the number of force evaluations of a run with this setting. It is approximate if impacts divide timesteps.
     #[allow(clippy::cast_precision_loss, reason = "two digits of it are needed")]
     pub(super) fn cost(self, scene: &Scene) -> f64 {
-        let intervals = scene.simulation.timeline.frames().saturating_sub(1) as f64;
+        let timeline = &scene.simulation.timeline;
+        let intervals = (timeline.end() / timeline.interval()).round();
         intervals * f64::from(self.steps) * evaluations(self.method) as f64
     }
 

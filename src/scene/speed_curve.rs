@@ -29,6 +29,10 @@ impl SpeedCurve {
     /// is 1.
     pub fn new(points: impl IntoIterator<Item = [f64; 2]>) -> SpeedCurve {
         let mut all: Vec<Point> = Vec::new();
+        let points: Vec<[f64; 2]> = points.into_iter().collect();
+        if points.iter().all(|[_, speed]| *speed == 1.0) {
+            return SpeedCurve::default();
+        }
         for [time, speed] in points {
             let film = match all.last() {
                 None => time / speed,

@@ -30,13 +30,21 @@ impl Timeline {
 
     /// Returns the number of frames, which may be larger than a scene may have.
     pub(super) fn frame_count(&self) -> f64 {
-        (self.speed.film_time(self.duration) * self.frame_rate).round() + 1.0
+        if self.speed.is_even() {
+            return (self.duration * self.frame_rate).round() + 1.0;
+        }
+        (self.speed.film_time(self.duration) * self.frame_rate - RELATIVE_ROUNDING).ceil().max(0.0) + 1.0
     }
 
-    /// Returns the time of the frame with the index `frame`, s. It may be a frame after the last one.
+    /// Returns the time of the frame with the index `frame`, s. It may be a frame after the last one. If the film has a speed of its own, its last
+    /// frame shows the end of the simulation.
     #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of frames")]
     pub fn time(&self, frame: usize) -> f64 {
-        self.speed.time(frame as f64 / self.frame_rate)
+        let film = frame as f64 / self.frame_rate;
+        if self.speed.is_even() {
+            return film;
+        }
+        if frame + 1 >= self.frames() { self.duration } else { self.without_rounding(self.speed.time(film)) }
     }
 
     /// Returns the time between two frames at speed 1, s. The dynamics advances by equal intervals of this length, so the speed of the film
@@ -100,13 +108,24 @@ impl Timeline {
     /// Returns the index of the frame that is exactly at a time, s. `None` if there is none.
     pub fn frame_at(&self, time: f64) -> Option<usize> {
         let nearest = self.nearest(time);
-        (nearest < self.frames() && self.time(nearest) == time).then_some(nearest)
+        // The last frame may come early.
+        (nearest..=nearest.saturating_add(1))
+            .find(|frame| *frame < self.frames() && self.time(*frame) == time)
     }
 
-    /// Returns the time of the nearest frame, s, if `time` differs from that time only by rounding. Otherwise returns `time`.
-    pub fn nearest_frame(&self, time: f64) -> f64 {
-        let at_frame = self.time(self.nearest(time));
-        if (time - at_frame).abs() <= self.slack() { at_frame } else { time }
+    /// Returns the start of the nearest [interval](Self::interval), s, if `time` differs from it only by rounding. Otherwise returns `time`. The
+    /// speed of the film makes no difference.
+    pub fn without_rounding(&self, time: f64) -> f64 {
+        let start = (time * self.frame_rate).round() / self.frame_rate;
+        if (time - start).abs() <= self.slack() { start } else { time }
+    }
+
+    /// Returns the number of frames in a period of `duration` seconds that ends at the time `until`, s.
+    pub fn frames_during(&self, duration: f64, until: f64) -> f64 {
+        if self.speed.is_even() {
+            return duration / self.interval();
+        }
+        (self.speed.film_time(until) - self.speed.film_time(until - duration)) * self.frame_rate
     }
 
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]

@@ -37,8 +37,13 @@ impl Course {
         let frames_per_stretch = timeline.frames().div_ceil(MAX_STRETCHES).max(1);
         #[allow(clippy::cast_precision_loss, reason = "there are fewer frames than a number can count")]
         let frames = frames_per_stretch as f64;
-        // Half of an interval keeps rounding errors away from the ends of stretches.
-        Course { duration: (frames - 0.5) * timeline.interval(), stretches: Vec::new() }
+        let duration = if timeline.speed.is_even() {
+            // Half of an interval keeps rounding errors away from the ends of stretches.
+            (frames - 0.5) * timeline.interval()
+        } else {
+            timeline.end() / MAX_STRETCHES as f64
+        };
+        Course { duration, stretches: Vec::new() }
     }
 
     /// Adds a part of what moves at the time of a frame (s).

@@ -67,7 +67,8 @@ impl Moments {
         let is_within = |time: &f64| *time > begin && (*time < end || (*time == end && !ends_at_frame));
         let mut times: Vec<f64> = self.others.iter().copied().filter(is_within).collect();
         let frames = self.timeline.frames_within(begin, end).map(|frame| self.timeline.time(frame));
-        times.extend(frames.filter(is_within));
+        let frames: Vec<f64> = frames.filter(is_within).collect();
+        times.extend(&frames);
         for shutter in &self.shutters {
             let speed = &self.timeline.speed;
             let earliest = speed.time(speed.film_time(begin) - self.timeline.interval() - shutter.open);
@@ -78,9 +79,12 @@ impl Moments {
         let slack = self.timeline.slack();
         for &every in &self.intervals {
             let mut number = ((begin + slack) / every).floor().max(0.0);
-            while number * every < end - slack {
-                if number * every > begin + slack {
-                    times.push(number * every);
+            while number * every <= end + slack {
+                let time = number * every;
+                let is_last = time >= end - slack;
+                let is_seen = |seen: &f64| (seen - time).abs() <= slack;
+                if time > begin + slack && !(is_last && ends_at_frame) && !frames.iter().any(is_seen) {
+                    times.push(if is_last { end } else { time });
                 }
                 number += 1.0;
             }
@@ -149,6 +153,18 @@ mod tests {
         let moments = Moments::of(&scene);
         assert_eq!(moments.intervals(), 4);
         assert_eq!([0, 1].map(|interval| moments.within(interval)), [[0.05], [0.15]]);
+    }
+
+    /// Ghosts stand where no frame is, also at the end of an interval, and never twice at the same time.
+    #[test]
+    fn the_speed_of_the_film_leaves_no_ghost_out() {
+        for speed in ["1", "0.5", "2", "3", "0.3", "[[0, 1], [0.2, 0.1], [0.4, 2]]"] {
+            let scene = scene(&format!("ghosts.every = 0.1\n[output]\nspeed = {speed}"));
+            let last = crate::simulate::Frames::new(&scene).last().unwrap().unwrap();
+            let times: Vec<f64> = last.past.ghosts.iter().map(|ghost| ghost.time).collect();
+            assert_eq!(last.time, 0.4, "{speed}");
+            assert_eq!(times, [0.0, 0.1, 0.2, 3.0 * 0.1], "{speed}");
+        }
     }
 
     /// The film runs at twice the speed: it has a frame at every other interval.

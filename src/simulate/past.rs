@@ -188,7 +188,7 @@ impl History {
             self.last[number] = present.map(|body| (frame.time, *body));
             self.last_values[number] = value;
             // The stride depends on the number of the present frame alone, so every reader keeps the same points.
-            let stride = stride(trail, self.timeline.interval(), frame.index);
+            let stride = stride(trail, &self.timeline, frame.time, frame.index);
             if let Some(duration) = trail.duration {
                 // The last point before the start of the trail is needed for interpolation.
                 let before =
@@ -256,7 +256,7 @@ impl History {
             trails.push(TrailPath {
                 body: *body,
                 points,
-                stride: stride(trail, self.timeline.interval(), moment.index),
+                stride: stride(trail, &self.timeline, moment.time, moment.index),
             });
         }
         let lagging = self.lagging.iter().map(|lagging| lagging.at(moment)).collect();

@@ -166,7 +166,7 @@ pub fn settings(
     let last_frame = head.frames.saturating_sub(1);
     let number = frames.len();
     #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of frames")]
-    let end = head.speed.time(last_frame as f64 / head.frame_rate);
+    let end = head.timeline().time(last_frame);
     let pace = Pace::new(head.frame_rate, video_rate.or(head.video_rate));
     Ok(Settings {
         job: job_name(&head.scene),

@@ -6,7 +6,7 @@ use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Severity, Span};
 use crate::physics::Spring;
 use crate::scene::grammar::KeySpec;
-use crate::scene::grammar::scene::{scene, simulation};
+use crate::scene::grammar::scene::{output, scene, simulation};
 use crate::scene::{Body, Force, ForceKind, Timeline};
 
 /// The maximum number of frames, which is eleven hours at 25 frames per second.
@@ -66,6 +66,15 @@ pub(super) fn check(
         let message =
             format!("the scene has {} frames; at most {} are written", count(frames), count(MAX_FRAMES));
         let film = speed.film_time(duration);
+        let output = root.table(&scene::OUTPUT);
+        if let Some(span) = output.span(&output::SPEED).filter(|_| !speed.is_even()) {
+            let help =
+                format!("at these speeds, the film of {duration} s lasts {} s", written(one_digit(film)));
+            let error =
+                Diagnostic::error(Code::TooManyFrames, message).at(span, "a larger speed gives fewer");
+            context.diagnostics.push(error.help(help));
+            return;
+        }
         let rate = written(one_digit(USUAL_FRAMES / film));
         let longest = written(digit_below((MAX_FRAMES - 1.0) / frame_rate * duration / film));
         let help = format!(

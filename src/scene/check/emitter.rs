@@ -170,8 +170,9 @@ impl Reader<'_, '_> {
     /// Reads the birth times of the particles.
     fn births(&mut self) -> Births {
         let (view, simulation) = (self.view, self.simulation);
-        let start = simulation.timeline.nearest_frame(view.get(&emitter::START));
-        let end = view.get(&emitter::END).map_or(f64::INFINITY, |end| simulation.timeline.nearest_frame(end));
+        let start = simulation.timeline.without_rounding(view.get(&emitter::START));
+        let end =
+            view.get(&emitter::END).map_or(f64::INFINITY, |end| simulation.timeline.without_rounding(end));
         if end < start {
             let message =
                 format!("`{}` starts at {} s and ends at {} s", self.name, figure(start), figure(end));

@@ -69,7 +69,7 @@ fn visible(name: &str, view: &View<'_>, timeline: &Timeline, context: &mut Conte
         context.diagnostics.push(spans.fold(error, |error, (span, label)| error.at(span, label)));
         return Label::ALWAYS;
     }
-    let at = |time: f64| timeline.nearest_frame(time);
+    let at = |time: f64| timeline.without_rounding(time);
     // The last frame keeps a label that stays as long as the scene.
     let until_end = until.map(at).filter(|until| *until < timeline.end());
     let visible = [from.map_or(f64::NEG_INFINITY, at), until_end.unwrap_or(f64::INFINITY)];
@@ -79,7 +79,11 @@ fn visible(name: &str, view: &View<'_>, timeline: &Timeline, context: &mut Conte
         let warning = Diagnostic::warning(Code::NeverThere, format!("no frame shows the label `{name}`"));
         let between = match (from, until) {
             (Some(_), Some(_)) if visible[1] > 0.0 && visible[0] <= timeline.end() => {
-                format!("the frames are {} s apart", figure(timeline.interval()))
+                if timeline.speed.is_even() {
+                    format!("the frames are {} s apart", figure(timeline.interval()))
+                } else {
+                    "no frame lies in this time, at the speed of the film".to_owned()
+                }
             }
             _ => format!("the scene goes from 0 to {} s", figure(timeline.end())),
         };

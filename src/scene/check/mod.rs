@@ -338,6 +338,7 @@ fn build(
     let speed = speed::read(&root, context);
     let (simulation, counts) = simulation::read(&root, needs_steps(&root), speed);
     simulation::check(&root.table(&scene::SIMULATION), &simulation, context);
+    speed::check_emitters(&root, &simulation, context);
     let mut materials = material::read(&root, context);
     let bodies = body::read(&root, &simulation, &mut materials, context);
     let (simulation, counts) = stepping::choose_step(&root, simulation, counts, &bodies);

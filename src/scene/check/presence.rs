@@ -31,7 +31,7 @@ pub(super) fn read(
         context.diagnostics.push(spans.fold(error, |error, (span, label)| error.at(span, label)));
         return Presence::ALWAYS;
     }
-    let at = |time: f64| simulation.timeline.nearest_frame(time);
+    let at = |time: f64| simulation.timeline.without_rounding(time);
     Presence::during(&[[start.map_or(f64::NEG_INFINITY, at), end.map_or(f64::INFINITY, at)]])
 }
 
@@ -83,7 +83,7 @@ pub(super) fn of_rows(
     let gaps: Vec<usize> = (1..keys.len()).filter(is_gap).collect();
 
     let [begin, end] = reach([first.time, last.time], simulation);
-    let at = |i: usize| simulation.timeline.nearest_frame(keys[i].time);
+    let at = |i: usize| simulation.timeline.without_rounding(keys[i].time);
     let starts = std::iter::once(begin).chain(gaps.iter().map(|&gap| at(gap)));
     let ends = gaps.iter().map(|&gap| at(gap - 1)).chain([end]);
     let intervals: Vec<[f64; 2]> = starts.zip(ends).map(|(start, end)| [start, end]).collect();
@@ -94,11 +94,11 @@ pub(super) fn of_rows(
 /// infinite.
 fn reach([first, last]: [f64; 2], simulation: &SimulationSettings) -> [f64; 2] {
     let frame = simulation.timeline.interval() - simulation.timeline.slack();
-    let begin = if first < frame { f64::NEG_INFINITY } else { simulation.timeline.nearest_frame(first) };
+    let begin = if first < frame { f64::NEG_INFINITY } else { simulation.timeline.without_rounding(first) };
     let end = if last > simulation.timeline.end() - frame {
         f64::INFINITY
     } else {
-        simulation.timeline.nearest_frame(last)
+        simulation.timeline.without_rounding(last)
     };
     [begin, end]
 }

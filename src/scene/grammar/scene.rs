@@ -35,6 +35,11 @@ fn presets() -> Vec<&'static str> {
     Preset::ALL.iter().map(|preset| preset.name()).collect()
 }
 
+/// The smallest speed of a film, `output.speed`. Frames are then still much farther apart than rounding errors of times.
+pub(in crate::scene) const SLOWEST_FILM: f64 = 1e-4;
+/// The largest speed of a film.
+pub(in crate::scene) const FASTEST_FILM: f64 = 1e6;
+
 table! {
     /// The grammar of a whole scene. All other tables are reached from it.
     scene: "a scene", Rule::Any;
@@ -288,7 +293,10 @@ table! {
     .also(&["film_rate", "playback_rate", "fps"]),
     SPEED: Any = KeySpec::new(
         "speed",
-        Either(&[POSITIVE, List { of: &Numbers(2, Bound::NonNegative), min: 1, max: 10_000 }]),
+        Either(&[
+            Number(Bound::From(SLOWEST_FILM, FASTEST_FILM)),
+            List { of: &Numbers(2, Bound::NonNegative), min: 1, max: 10_000 },
+        ]),
         "The speed of the film: 0.1 is slow motion by a factor of 10. A list of [time, speed] slows down around an \
          event: between two times of the simulation, the speed changes evenly",
     )

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::corners;
 use crate::physics::BodySnapshot;
-use crate::scene::Trail;
+use crate::scene::{Timeline, Trail};
 
 /// The largest number of points of a trail. In longer runs, only every second, fourth, … frame adds a point.
 pub(super) const MOST_POINTS: usize = 512;
@@ -124,9 +124,10 @@ fn frames_within(intervals: f64) -> usize {
 }
 
 /// The number of frames between two stored points of a trail: the smallest power of two that keeps the trail within [`MOST_POINTS`].
-/// `interval` is the time between two frames (s), and `frame` the present frame.
-pub(super) fn stride(trail: Trail, interval: f64, frame: usize) -> usize {
-    let within = trail.duration.map_or(usize::MAX, |duration| frames_within(duration / interval));
+/// `time` is the time of the present frame, s, and `frame` its index.
+pub(super) fn stride(trail: Trail, timeline: &Timeline, time: f64, frame: usize) -> usize {
+    let within =
+        trail.duration.map_or(usize::MAX, |duration| frames_within(timeline.frames_during(duration, time)));
     (within.min(frame) / MOST_POINTS + 1).next_power_of_two()
 }
 
