@@ -52,6 +52,30 @@ fn of_impacts_at_one_instant_the_fastest_comes_first_and_then_the_first() {
     assert_eq!(known, [-23.0 / 64.0, 3.0 / 64.0, 5.0 / 16.0]);
 }
 
+/// Checks that a fast impact elsewhere changes no slow impact: a ball of 5 mm/s meets two that touch, so the first two balls have several
+/// impacts at one instant. The fast impact, at 2,000 m/s, is before them.
+#[test]
+fn a_fast_impact_elsewhere_changes_no_slow_one() {
+    let run = |is_one_fast: bool| {
+        let mut table = Table::new(method("velocity-verlet"), false);
+        let mut ball = |place: DVec3, speed: f64| {
+            table.add(Shape::Sphere { radius: 0.1 }, 1.0, surface(0.9, 0.0), |body| {
+                body.with_location(place).with_velocity(speed * DVec3::X)
+            })
+        };
+        let slow = [(-0.2005, 0.005), (0.0, 0.0), (0.2, 0.0)].map(|(x, speed)| ball(x * DVec3::X, speed));
+        if is_one_fast {
+            [-1.0, 1.0].map(|side| ball(DVec3::new(side, 1000.0, 0.0), -side * 1000.0));
+        }
+        let mut world = table.build();
+        advance(&mut world, 0.2);
+        slow.map(|ball| world.velocity(ball))
+    };
+    let alone = run(false);
+    assert!(alone[0].x < alone[1].x && alone[1].x < alone[2].x, "{alone:?}");
+    assert_eq!(run(true), alone);
+}
+
 /// Checks the time at which a bouncing ball comes to rest: at the first impact with a rebound slower than 1e-8 of the fastest impact of
 /// the run. This fastest impact is between two other balls, at 2,000 m/s. The ball's impact n is at √(2h/g) (1 + 2 Σ eᵏ), k from 1 to n.
 #[test]

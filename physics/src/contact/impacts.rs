@@ -219,7 +219,8 @@ impl Collider {
     }
 
     /// Returns true if two bodies that meet at `speed`, m/s, have separated since their last impact by no more than the rounding errors of
-    /// their coordinates. These errors, and no motion, then give the time of the impact and its speed.
+    /// their coordinates. These errors, and no motion, then give the time of the impact and its speed. Impacts at the same instant do not
+    /// count: other bodies cause them.
     fn hits_unseen(
         &self,
         bodies: [usize; 2],
@@ -234,7 +235,7 @@ impl Collider {
         };
         // Bodies that meet again with the speed at which they left were apart by a quarter of the product of speed and time.
         let height = 0.25 * speed * (time - last.time);
-        height <= ContactScale::of(bodies, [a, b], (model, state)).touch()
+        height > 0.0 && height <= ContactScale::of(bodies, [a, b], (model, state)).touch()
     }
 
     /// Returns a typical length of the smaller of two bodies, m.
