@@ -54,7 +54,7 @@ impl SpeedCurve {
         self.0.iter().all(|point| point.speed == first.speed).then_some(first.speed)
     }
 
-    /// Computes the time of the film (s) at which a simulated time (s) is shown.
+    /// Computes when the film shows a simulated time (s): a time of the film, s.
     pub fn film_time(&self, time: f64) -> f64 {
         let after = self.0.partition_point(|point| point.time <= time);
         match (after.checked_sub(1).map(|before| self.0[before]), self.0.get(after)) {

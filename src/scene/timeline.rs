@@ -65,8 +65,8 @@ impl Timeline {
         number as f64 / self.frame_rate
     }
 
-    /// Returns the times of the moments in one image with motion blur, s. `begin` is the time at which the shutter opens. It is open in the
-    /// time of the film: slow motion has less blur.
+    /// Returns the times of the moments in one image with motion blur, s. `begin` is the time at which the shutter opens. The
+    /// exposure time is measured in the film, so slow motion has less blur.
     pub fn exposure(&self, shutter: Shutter, begin: f64) -> impl ExactSizeIterator<Item = f64> {
         shutter.moments(self.speed.film_time(begin)).map(|film| self.speed.time(film))
     }

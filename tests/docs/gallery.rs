@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use crate::reference::is_up_to_date;
 
 /// The number of cards in a row.
-const COLUMNS: usize = 3;
+const CARDS_PER_ROW: usize = 3;
 
 /// The topics of the page, each with a text that only the scenes of this topic contain. A scene belongs to the first topic that fits.
 const TOPICS: [(&str, &str); 5] = [
@@ -42,17 +42,23 @@ fn the_gallery_has_a_card_for_each_scene() {
         .map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned())
         .collect();
     assert_eq!(pictures, names, "docs/gallery.sh makes the pictures");
-    let mut page = HEAD.to_owned();
+    let mut page = INTRODUCTION.to_owned();
     for ((topic, _), cards) in TOPICS.iter().zip(&cards) {
-        write!(page, "\n## {topic}\n\n|{}\n|{}\n", "   |".repeat(COLUMNS), " --- |".repeat(COLUMNS)).unwrap();
-        for row in cards.chunks(COLUMNS) {
+        write!(
+            page,
+            "\n## {topic}\n\n|{}\n|{}\n",
+            "   |".repeat(CARDS_PER_ROW),
+            " --- |".repeat(CARDS_PER_ROW)
+        )
+        .unwrap();
+        for row in cards.chunks(CARDS_PER_ROW) {
             writeln!(page, "| {} |", row.join(" | ")).unwrap();
         }
     }
     is_up_to_date("gallery.md", &page);
 }
 
-/// Returns the text of the comment with which a scene begins, up to the first empty line of it.
+/// Returns the comment at the head of a scene, up to its first empty line.
 fn first_comment(text: &str) -> String {
     let lines = text.lines().map_while(|line| line.strip_prefix("# "));
     lines.collect::<Vec<_>>().join(" ")
@@ -67,7 +73,7 @@ fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
     files
 }
 
-const HEAD: &str = "# The gallery
+const INTRODUCTION: &str = "# The gallery
 
 Each picture is one frame of a scene. A click on it opens the scene, whose first comment says more. `jabuka preview scenes/bounce.toml` shows
 a scene in motion.

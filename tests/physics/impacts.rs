@@ -53,7 +53,7 @@ fn of_impacts_at_one_instant_the_fastest_comes_first_and_then_the_first() {
 }
 
 /// Checks that a fast impact elsewhere changes no slow impact: a ball of 5 mm/s meets two that touch, so the first two balls have several
-/// impacts at one instant. The fast impact, at 2,000 m/s, is before them.
+/// impacts at one instant. The fast impact, at 200 m/s, is before them.
 #[test]
 fn a_fast_impact_elsewhere_changes_no_slow_one() {
     let run = |is_one_fast: bool| {
@@ -65,7 +65,9 @@ fn a_fast_impact_elsewhere_changes_no_slow_one() {
         };
         let slow = [(-0.2005, 0.005), (0.0, 0.0), (0.2, 0.0)].map(|(x, speed)| ball(x * DVec3::X, speed));
         if is_one_fast {
-            [-1.0, 1.0].map(|side| ball(DVec3::new(side, 1000.0, 0.0), -side * 1000.0));
+            for side in [-1.0, 1.0] {
+                ball(DVec3::new(side, 1000.0, 0.0), -side * 100.0);
+            }
         }
         let mut world = table.build();
         advance(&mut world, 0.2);

@@ -66,7 +66,7 @@ impl Solver {
             (Mode::Open, Law::Inequality) => {
                 let margin = part(self.rows[i].violation, self.rows[i].tolerance(VIOLATION_TOLERANCE), 1.0);
                 // A stop that was touched at the start of the step and opens is passed at first: by as much as its event tolerates, and by
-                // the error of the integration method. Rates that count as rest at an event cannot be another event.
+                // the error of the integration method. A rate that an event takes for rest must not be an event itself.
                 let opens = rates[i] >= -STOP_TOLERANCE * size * self.unit(i)
                     && self.touched.get(i).is_some_and(|touched| *touched);
                 if opens { margin.max(0.0) } else { margin }

@@ -220,6 +220,11 @@ function levels(low, high, count) {
 function nearest(numbers, stride, time) {
   const count = numbers.length / stride;
   if (!count) return undefined;
-  const step = count > 1 ? numbers[stride] - numbers[0] : 1;
-  return stride * Math.max(0, Math.min(count - 1, Math.round(time / step)));
+  let [before, after] = [0, count - 1];
+  while (after - before > 1) {
+    const middle = (before + after) >> 1;
+    if (numbers[stride * middle] <= time) before = middle;
+    else after = middle;
+  }
+  return stride * (time - numbers[stride * before] < numbers[stride * after] - time ? before : after);
 }

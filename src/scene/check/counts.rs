@@ -65,24 +65,22 @@ pub(super) fn check(
         let Timeline { duration, frame_rate, ref speed } = counts.timeline;
         let message =
             format!("the scene has {} frames; at most {} are written", count(frames), count(MAX_FRAMES));
-        let film = speed.film_time(duration);
-        let output = root.table(&scene::OUTPUT);
-        if let Some(span) = output.span(&output::SPEED).filter(|_| !speed.is_even()) {
-            let help =
-                format!("at these speeds, the film of {duration} s lasts {} s", written(one_digit(film)));
+        if let Some(span) = root.table(&scene::OUTPUT).span(&output::SPEED).filter(|_| !speed.is_even()) {
+            let film = written(one_digit(speed.film_time(duration)));
+            let help = format!("at these speeds, the film of {duration} s lasts {film} s");
             let error =
                 Diagnostic::error(Code::TooManyFrames, message).at(span, "a larger speed gives fewer");
             context.diagnostics.push(error.help(help));
             return;
         }
-        let rate = written(one_digit(USUAL_FRAMES / film));
-        let longest = written(digit_below((MAX_FRAMES - 1.0) / frame_rate * duration / film));
+        let rate = written(one_digit(USUAL_FRAMES / duration));
+        let longest = written(digit_below((MAX_FRAMES - 1.0) / frame_rate));
         let help = format!(
             "frames = duration × frame_rate + 1: `frame_rate = {rate}` makes some {USUAL_FRAMES}, \
              or `duration = {longest}` fits"
         );
         let error = Diagnostic::error(Code::TooManyFrames, message).help(help);
-        let timeline = Timeline { frame_rate: one_digit(USUAL_FRAMES / film), ..counts.timeline.clone() };
+        let timeline = Timeline { frame_rate: one_digit(USUAL_FRAMES / duration), ..counts.timeline.clone() };
         let slower = Counts { timeline, ..counts.clone() };
         let mut values = vec![(&simulation::FRAME_RATE.spec, rate)];
         if slower.steps() > MANY_STEPS && !view.has(&simulation::STEP) {

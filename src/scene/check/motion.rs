@@ -167,7 +167,7 @@ fn by_keyframes(
         let (Some(time), Some(span)) = (frame.get(&keyframe::TIME), frame.span(&keyframe::TIME)) else {
             continue;
         };
-        if out_of_order(&mut last, time, span, context) {
+        if out_of_order("a keyframe", &mut last, time, span, context) {
             continue;
         }
         let before = keys.last();
@@ -220,7 +220,7 @@ pub(super) fn camera_keyframes(
         ) else {
             continue;
         };
-        if out_of_order(&mut last, time, span, context) {
+        if out_of_order("a keyframe", &mut last, time, span, context) {
             continue;
         }
         aim = frame.get(&camera::keyframe::LOOK_AT).or(aim);
@@ -240,10 +240,16 @@ pub(super) fn camera_keyframes(
     })
 }
 
-/// Returns true and reports an error if a keyframe is not later than the preceding one.
-fn out_of_order(last: &mut Option<(f64, Span)>, time: f64, span: Span, context: &mut Context<'_>) -> bool {
+/// Returns true and reports an error if `what`, such as a keyframe, is not later than the one before.
+pub(super) fn out_of_order(
+    what: &str,
+    last: &mut Option<(f64, Span)>,
+    time: f64,
+    span: Span,
+    context: &mut Context<'_>,
+) -> bool {
     if let Some((before, other)) = last.filter(|(before, _)| *before >= time) {
-        let message = format!("a keyframe at {time} s stands after one at {before} s");
+        let message = format!("{what} at {time} s stands after one at {before} s");
         let error = Diagnostic::error(Code::KeyframeOrder, message).at(span, "this is not later");
         context.diagnostics.push(error.at(other, "the one before"));
         return true;

@@ -1,6 +1,7 @@
 //! Reads the speed of the film, `output.speed`.
 
 use super::Context;
+use super::motion::out_of_order;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::scene::{FASTEST_FILM, SLOWEST_FILM, output, scene};
 use crate::scene::view::View;
@@ -24,12 +25,7 @@ pub(super) fn read(root: &View<'_>, context: &mut Context<'_>) -> SpeedCurve {
             let help = format!("a film that is slow has a small speed: `[{time}, 0.01]` is a hundredth");
             context.diagnostics.push(error.help(help));
         }
-        if let Some((before, other)) = last.filter(|(before, _)| before >= time) {
-            let message = format!("a speed at {time} s stands after one at {before} s");
-            let error = Diagnostic::error(Code::KeyframeOrder, message).at(node.span, "this is not later");
-            context.diagnostics.push(error.at(other, "the one before"));
-        }
-        last = Some((*time, node.span));
+        out_of_order("a speed", &mut last, *time, node.span, context);
     }
     if context.diagnostics.len() > before { SpeedCurve::default() } else { SpeedCurve::new(points) }
 }
