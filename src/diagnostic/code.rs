@@ -152,6 +152,7 @@ codes! {
     SamePlace = "same-place",
     ScatterFull = "scatter-full",
     ShortTrajectory = "short-trajectory",
+    SphericalSize = "spherical-size",
     SpringEnds = "spring-ends",
     Stalled = "stalled",
     Stopped = "stopped",

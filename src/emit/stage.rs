@@ -1,5 +1,6 @@
 //! The surroundings of the bodies (camera, lights, ground, sky) as values for templates. Lengths are in POV-Ray units.
 
+use glam::DVec3;
 use serde::Serialize;
 
 use crate::picture::{Lens, Placed, PlacedLight, Plan};
@@ -54,6 +55,10 @@ pub(super) struct CameraText {
     /// A point in the plane of focus, POV-Ray units.
     focus: Option<[f64; 3]>,
     blur_samples: Option<u32>,
+    /// True if the picture shows all directions.
+    spherical: bool,
+    /// The shear of one of two eyes, as the twelve numbers of a POV-Ray matrix. `None` for other cameras.
+    shear: Option<[f64; 12]>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -117,8 +122,11 @@ impl CameraText {
         let (angle, width) = match camera.lens() {
             Lens::Perspective { angle } => (Some(angle), None),
             Lens::Orthographic { width } => (None, Some(width / unit)),
+            Lens::Spherical => (None, None),
         };
         CameraText {
+            spherical: camera.lens() == Lens::Spherical,
+            shear: camera.shear().map(|way| shear(way, camera.back(), camera.location() / unit)),
             location: (camera.location() / unit).to_array(),
             look_at: (camera.look_at() / unit).to_array(),
             angle,
@@ -131,6 +139,16 @@ impl CameraText {
             blur_samples: camera.blur().map(|blur| blur.samples),
         }
     }
+}
+
+/// Returns the matrix of a shear that keeps the plane across `back` through `fixed` (POV-Ray units), and moves other points by the vector `way`
+/// times their distance along `back` from it. POV-Ray multiplies rows, so the matrix has the images of x, y and z in its rows, and last the
+/// image of the origin.
+fn shear(way: DVec3, back: DVec3, fixed: DVec3) -> [f64; 12] {
+    let rows = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| axis + way * back.dot(axis));
+    let all = rows.into_iter().chain([way * -back.dot(fixed)]);
+    let mut numbers = all.flat_map(|row| row.to_array());
+    std::array::from_fn(|_| numbers.next().unwrap_or_default())
 }
 
 /// Returns planned lights as values for templates. `unit` is the length of one POV-Ray unit, m.

@@ -65,7 +65,7 @@ pub(super) fn reach(plan: &Plan) -> LargestCoordinate {
 /// Returns the larger edge of an orthographic camera's view, m. It is 0 for a perspective camera.
 fn parallel(plan: &Plan) -> f64 {
     match plan.placed().lens() {
-        Lens::Perspective { .. } => 0.0,
+        Lens::Perspective { .. } | Lens::Spherical => 0.0,
         Lens::Orthographic { width } => width * plan.placed().height_to_width().max(1.0),
     }
 }

@@ -27,6 +27,8 @@ pub struct Placed {
     output: Output,
     /// The part of the picture that plots and labels leave free.
     free: Free,
+    /// The distance of the eye to the right of `location`, m.
+    eye: f64,
 }
 
 /// The projection of a camera.
@@ -42,6 +44,14 @@ pub enum Lens {
         /// The width in view, m.
         width: f64,
     },
+    /// A picture of all directions: 360° wide and 180° high. It is level: the camera's upward direction is in the middle of the upper edge.
+    Spherical,
+}
+
+impl Lens {
+    /// The horizontal angle of the part of a spherical picture that is framed, and on which labels lie, degrees: about what a 360° viewer
+    /// shows at once.
+    pub const SPHERICAL_WINDOW_ANGLE: f64 = 90.0;
 }
 
 impl Placed {
@@ -69,10 +79,15 @@ impl Placed {
                     framing::orthographic(bounds, output, camera.look_at, (towards, tilt), free);
                 (Lens::Orthographic { width: width.unwrap_or(seen) }, auto)
             }
+            Projection::Spherical => {
+                let field = Field::new(Lens::SPHERICAL_WINDOW_ANGLE, output).within(free);
+                (Lens::Spherical, framing::perspective(bounds, field, camera.look_at, towards, tilt))
+            }
         };
         let location = camera.location.unwrap_or(auto.location);
         let look_at = camera.look_at.unwrap_or_else(|| aim(location, auto));
-        Placed { location, look_at, lens, tilt, blur: camera.blur, output, free }
+        let eye = camera.eye;
+        Placed { location, look_at, lens, tilt, blur: camera.blur, output, free, eye }.leveled()
     }
 
     /// The camera at a time (s). The followed body has the half-width `size` (m). It was at `start` in the first frame, and is at `here`
@@ -114,7 +129,21 @@ impl Placed {
             (lens, _) => lens,
         };
         let roll = motion.roll.as_ref().map_or(self.tilt.roll, |roll| roll.at(time, &value));
-        Placed { location, look_at, lens, tilt: Tilt { roll, ..self.tilt }, ..*self }
+        Placed { location, look_at, lens, tilt: Tilt { roll, ..self.tilt }, ..*self }.leveled()
+    }
+
+    /// The camera with a level line of sight, if its pictures are spherical. In a 360° viewer, verticals then stay vertical all around.
+    fn leveled(self) -> Placed {
+        if self.lens != Lens::Spherical {
+            return self;
+        }
+        let up = self.tilt.up.unwrap_or(DVec3::Y);
+        let sight = self.look_at - self.location;
+        let level = sight - up * sight.dot(up);
+        // A camera that looks straight up or down has the upper edge of an upright picture ahead.
+        let is_vertical = level.length() <= 1e-6 * sight.length();
+        let level = if is_vertical { self.tilt.turned(DVec3::NEG_Z) * sight.length() } else { level };
+        Placed { look_at: self.location + level, ..self }
     }
 
     /// The width in view at a point, m, with which the camera shows all of the bounds if it aims at this point.
@@ -130,7 +159,7 @@ impl Placed {
             Some(slope) => (self.lens, view / (2.0 * slope)),
             None => (Lens::Orthographic { width: view }, self.location.distance(self.look_at)),
         };
-        Placed { location: look_at + back * distance, look_at, lens, ..*self }
+        Placed { location: look_at + back * distance, look_at, lens, ..*self }.leveled()
     }
 
     /// The unit vectors of the camera to the right, up and back.
@@ -141,25 +170,52 @@ impl Placed {
     /// The tangent of half of the horizontal angle. `None` for parallel rays.
     fn rays(&self) -> Option<f64> {
         match self.lens {
-            Lens::Perspective { angle } => Some(Field::new(angle, self.output).horizontal),
+            Lens::Perspective { .. } | Lens::Spherical => Some(self.half_tangent()),
             Lens::Orthographic { .. } => None,
         }
     }
 
-    /// The position of the camera in the world, m.
-    pub fn location(&self) -> DVec3 {
-        self.location
+    /// The tangent of half of the horizontal angle of the field of view, or of the window of a spherical picture. 0 for parallel rays.
+    fn half_tangent(&self) -> f64 {
+        match self.lens {
+            Lens::Perspective { angle } => Field::new(angle, self.output).horizontal,
+            Lens::Spherical => Field::new(Lens::SPHERICAL_WINDOW_ANGLE, self.output).horizontal,
+            Lens::Orthographic { .. } => 0.0,
+        }
     }
 
-    /// The point that the camera looks at, m. It is in the middle of the picture.
+    /// The way from the middle between two eyes to the eye of this camera, m. `None` for a camera that is not one of two eyes.
+    fn way_to_eye(&self) -> Option<DVec3> {
+        (self.eye != 0.0).then(|| self.axes().0 * self.eye)
+    }
+
+    /// The position of the camera in the world, m.
+    pub fn location(&self) -> DVec3 {
+        self.way_to_eye().map_or(self.location, |way| self.location + way)
+    }
+
+    /// The point straight ahead of the camera, m: what it looks at, in the middle of the picture. Two eyes look at two points; see
+    /// [`Placed::shear`].
     pub fn look_at(&self) -> DVec3 {
-        self.look_at
+        self.way_to_eye().map_or(self.look_at, |way| self.look_at + way)
+    }
+
+    /// The shear that moves the point straight ahead of one of two eyes to the point that both look at, which is in the middle of the
+    /// picture: it moves a point by this vector for each meter behind the camera, and leaves the plane of the camera where it is. So both
+    /// eyes see what is at the distance of this point at the same place of their pictures. `None` for a camera that is not one of two eyes.
+    pub fn shear(&self) -> Option<DVec3> {
+        Some(self.way_to_eye()? / self.location.distance(self.look_at))
+    }
+
+    /// The unit vector from what the camera looks at towards the camera.
+    pub fn back(&self) -> DVec3 {
+        self.axes().2
     }
 
     /// The unit vector from a point towards the camera.
     pub(super) fn towards(&self, point: DVec3) -> DVec3 {
         let way = match self.lens {
-            Lens::Perspective { .. } => self.location - point,
+            Lens::Perspective { .. } | Lens::Spherical => self.location() - point,
             Lens::Orthographic { .. } => self.location - self.look_at,
         };
         way.normalize_or(DVec3::Z)
@@ -207,12 +263,12 @@ impl Placed {
     /// used instead.
     pub(super) fn width_of_view(&self, bounds: Bounds) -> f64 {
         match self.lens {
-            Lens::Perspective { angle } => {
+            Lens::Perspective { .. } | Lens::Spherical => {
                 let sight = self.look_at - self.location;
                 let middle = self.look_at.clamp(bounds.min, bounds.max);
                 let depth = (middle - self.location).dot(sight.normalize_or_zero());
                 let depth = if depth > 0.0 { depth } else { sight.length() };
-                2.0 * depth * Field::new(angle, self.output).horizontal
+                2.0 * depth * self.half_tangent()
             }
             Lens::Orthographic { width } => width,
         }
@@ -221,8 +277,9 @@ impl Placed {
     /// The width in view at a distance from the camera, m.
     pub(crate) fn width_at(&self, distance: f64) -> f64 {
         match self.lens {
-            Lens::Perspective { angle } => 2.0 * distance * Field::new(angle, self.output).horizontal,
+            Lens::Perspective { .. } => 2.0 * distance * self.half_tangent(),
             Lens::Orthographic { width } => width,
+            Lens::Spherical => std::f64::consts::TAU * distance,
         }
     }
 
@@ -231,8 +288,13 @@ impl Placed {
         let (slope, width) = match self.lens {
             Lens::Perspective { angle } => (Some(libm::tan(angle.to_radians() / 2.0)), 0.0),
             Lens::Orthographic { width } => (None, width),
+            Lens::Spherical => (Some(self.half_tangent()), 0.0),
         };
-        Screen::new(self.location, self.look_at, self.sky(), (slope, width), self.focus())
+        let screen = Screen::new(self.location(), self.look_at(), self.sky(), (slope, width), self.focus());
+        match self.way_to_eye() {
+            Some(_) => screen.of_eye(self.eye / self.location.distance(self.look_at)),
+            None => screen,
+        }
     }
 }
 

@@ -50,7 +50,7 @@ impl Planes {
                 let lowest = above(line.to).min(above(line.from));
                 let part = (eye - lowest - lacking) / (eye - lowest);
                 *line = match camera.lens() {
-                    Lens::Perspective { .. } => nearer(line, camera, part),
+                    Lens::Perspective { .. } | Lens::Spherical => nearer(line, camera, part),
                     Lens::Orthographic { .. } => {
                         let towards = camera.towards(line.to);
                         shifted(line, towards * (lacking / towards.dot(*normal).max(0.05)))
@@ -73,7 +73,7 @@ impl Planes {
             }
             for point in &mut *points {
                 let way = match camera.lens() {
-                    Lens::Perspective { .. } => camera.location() - *point,
+                    Lens::Perspective { .. } | Lens::Spherical => camera.location() - *point,
                     Lens::Orthographic { .. } => camera.towards(*point),
                 };
                 *point += way * ((room - above(point)) / way.dot(*normal));
@@ -92,7 +92,7 @@ pub(super) fn lift_from_link(arrow: &mut Arrow, link: &Form, camera: &Placed) {
     let across = (end - begin).normalize_or_zero().cross(camera.towards(middle)).length().max(0.3);
     let way = 1.5 * reach / across;
     *arrow = arrow.along(match camera.lens() {
-        Lens::Perspective { .. } => {
+        Lens::Perspective { .. } | Lens::Spherical => {
             nearer(&arrow.line(), camera, 1.0 - way / camera.location().distance(middle))
         }
         Lens::Orthographic { .. } => shifted(&arrow.line(), camera.towards(middle) * way),
@@ -112,7 +112,7 @@ pub(super) fn lift_from_body(arrow: &mut Arrow, body: &Body, at: &BodySnapshot, 
     let way = reach - depth(arrow.from).min(depth(arrow.to));
     if way > 0.0 {
         *arrow = arrow.along(match camera.lens() {
-            Lens::Perspective { .. } => {
+            Lens::Perspective { .. } | Lens::Spherical => {
                 nearer(&arrow.line(), camera, 1.0 - way / camera.location().distance(middle))
             }
             Lens::Orthographic { .. } => shifted(&arrow.line(), towards * way),

@@ -19,6 +19,9 @@ pub struct Screen {
     half: f64,
     /// The tangent of half the horizontal field of view. `None` for parallel rays.
     slope: Option<f64>,
+    /// How far the middle of the picture lies to the left of the camera's straight line, relative to the distance. 0 unless the camera is one
+    /// of two eyes.
+    aside: f64,
 }
 
 /// The image of a point on the image plane.
@@ -55,12 +58,19 @@ impl Screen {
             None => IMAGE_PLANE_DISTANCE * location.distance(look_at),
         };
         let half = slope.map_or(width / 2.0, |slope| slope * depth);
-        Screen { location, right, up: back.cross(right).normalize_or(DVec3::Y), back, depth, half, slope }
+        let up = back.cross(right).normalize_or(DVec3::Y);
+        Screen { location, right, up, back, depth, half, slope, aside: 0.0 }
+    }
+
+    /// The image plane of one of two eyes. `aside` is the distance of the eye to the right of the middle between both, relative to the distance of
+    /// the point that they look at.
+    pub(super) fn of_eye(self, aside: f64) -> Screen {
+        Screen { aside, ..self }
     }
 
     /// The point in the middle of the plane, in the world, m.
     pub fn middle(&self) -> DVec3 {
-        self.location - self.back * self.depth
+        self.location - self.back * self.depth - self.right * (self.aside * self.depth)
     }
 
     /// The unit vectors of the plane in the world, m: to the right, up, and towards the viewer. Their length is half the width of the
@@ -78,7 +88,7 @@ impl Screen {
             None => self.half,
         };
         let projected = ScreenPoint {
-            x: offset.dot(self.right) / half,
+            x: (offset.dot(self.right) + self.aside * depth) / half,
             y: offset.dot(self.up) / half,
             scale: 1.0 / half,
         };
@@ -90,7 +100,7 @@ impl Screen {
     pub(super) fn ray(&self, x: f64, y: f64) -> (DVec3, DVec3) {
         let aside = self.right * x + self.up * y;
         match self.slope {
-            Some(slope) => (self.location, aside * slope - self.back),
+            Some(slope) => (self.location, aside * slope - self.back - self.right * self.aside),
             None => (self.location + aside * self.half, -self.back),
         }
     }

@@ -182,6 +182,7 @@ impl Camera {
         let (angle, width) = match placed.lens() {
             Lens::Perspective { angle } => (Some(angle), None),
             Lens::Orthographic { width } => (None, Some(width)),
+            Lens::Spherical => (Some(Lens::SPHERICAL_WINDOW_ANGLE), None),
         };
         let (location, look_at) = (placed.location().to_array(), placed.look_at().to_array());
         let up = placed.sky().map(|sky| sky.to_array());

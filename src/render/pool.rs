@@ -13,6 +13,9 @@ use super::images::Finished;
 use super::process::{Process, RenderTask, Setup, Step};
 use super::{Images, RenderError, cpu};
 
+/// POV-Ray's warning of the sheared camera of one of two eyes. This camera is meant to be so.
+const WARNING_OF_EYES: &str = "Camera vectors are not perpendicular";
+
 /// The time that a POV-Ray process waits between two images, s, measured with POV-Ray 3.7.
 const IDLE_SECONDS_PER_IMAGE: f64 = 0.2;
 
@@ -218,6 +221,7 @@ impl<'a> Pool<'a> {
         let process = self.running.swap_remove(index);
         for line in process.warnings().split_inclusive('\n') {
             if line.contains("Warning")
+                && !line.contains(WARNING_OF_EYES)
                 && self.warnings.len() < 20
                 && !self.warnings.iter().any(|w| w == line.trim())
             {

@@ -177,8 +177,10 @@ pub struct Camera {
     pub motion: CameraMotion,
     /// The part of the motion that a camera without a location shows. `None` for a part that jabuka chooses.
     pub auto: Option<Auto>,
-    /// The projection of the camera: perspective or orthographic.
+    /// The projection of the camera: perspective, orthographic or spherical.
     pub projection: Projection,
+    /// The distance of the eye to the right of the camera, m; negative to the left. 0 for a camera that is not one of two eyes.
+    pub eye: f64,
     /// The blur of objects that are out of focus. `None` if all objects are sharp.
     pub blur: Option<Blur>,
     /// The shutter, which gives motion blur. `None` for frames without motion blur.
@@ -269,6 +271,16 @@ pub enum Projection {
         /// The width of the visible area, m. `None` for a width that fits the motion.
         width: Option<f64>,
     },
+    /// A picture of all directions around the camera, for 360° viewers: 360° wide and 180° high, with its middle towards the camera's target.
+    Spherical,
+}
+
+impl Projection {
+    /// The names of all projections in scenes.
+    pub const NAMES: [&'static str; 3] = ["perspective", "orthographic", "spherical"];
+
+    /// The width of a spherical picture, which shows 360°, divided by its height, which shows 180°.
+    pub const SPHERICAL_ASPECT: u32 = 2;
 }
 
 /// The blur of objects that are out of focus.

@@ -145,14 +145,15 @@ impl CameraRange {
         // The depth buffer has 24 bits. The closer the near clipping plane is, the fewer bits are left for distant objects.
         let znear = (self.near.unwrap_or(0.0) / 10.0).max(zfar * 1e-6);
         let aspect = f64::from(output.width) / f64::from(output.height);
+        let perspective = |angle: f64| {
+            let half = libm::tan(angle.min(MAX_ANGLE_OF_VIEW).to_radians() / 2.0) / aspect;
+            let yfov = 2.0 * libm::atan(half);
+            CameraLens::Perspective { perspective: Perspective { aspect_ratio: aspect, yfov, znear, zfar } }
+        };
         let lens = match self.lens.unwrap_or(Lens::Orthographic { width: stage.size }) {
-            Lens::Perspective { angle } => {
-                let half = libm::tan(angle.min(MAX_ANGLE_OF_VIEW).to_radians() / 2.0) / aspect;
-                let yfov = 2.0 * libm::atan(half);
-                CameraLens::Perspective {
-                    perspective: Perspective { aspect_ratio: aspect, yfov, znear, zfar },
-                }
-            }
+            Lens::Perspective { angle } => perspective(angle),
+            // glTF has no such camera. It gets the part that a 360° viewer shows at once.
+            Lens::Spherical => perspective(Lens::SPHERICAL_WINDOW_ANGLE),
             Lens::Orthographic { width } => CameraLens::Orthographic {
                 orthographic: Orthographic { xmag: width / 2.0, ymag: width / 2.0 / aspect, znear, zfar },
             },

@@ -8,11 +8,11 @@ use super::view::View as Keys;
 use super::{Context, motion};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::grammar::camera::{camera, follow, orbit};
-use crate::scene::grammar::scene::scene;
+use crate::scene::grammar::scene::{output as output_keys, scene};
 use crate::scene::grammar::{Key, KeySpec};
 use crate::scene::{
-    Auto, Blur, Camera, CameraMotion, Follow, Projection, Shutter, SimulationSettings, Varying, VaryingPoint,
-    View, value,
+    Auto, Blur, Camera, CameraMotion, Follow, Output, Projection, Shutter, SimulationSettings, Varying,
+    VaryingPoint, View, value,
 };
 
 /// The value of `--view` that selects all views. No view can have this name.
@@ -44,8 +44,9 @@ fn auto(tables: &[Keys<'_>], moving: &CameraMotion, context: &mut Context<'_>) -
     Some(auto).filter(|_| other.is_none())
 }
 
-/// Reads the cameras of all `[view.NAME]` tables. Each view inherits missing keys from the main camera.
-pub(super) fn views(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<View> {
+/// Reads the cameras of all `[view.NAME]` tables. Each view inherits missing keys from the main camera, which has been read as `camera`.
+/// The two eyes of a camera with `stereo` are views, too.
+pub(super) fn views(known: Known<'_, '_>, main_camera: &Camera, context: &mut Context<'_>) -> Vec<View> {
     let main = known.root.table(&scene::CAMERA);
     let read = |(name, span, keys): (&str, _, Keys<'_>)| {
         let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
@@ -57,7 +58,58 @@ pub(super) fn views(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<View
         }
         View { name: name.to_owned(), camera: camera(&[keys, main], known, context) }
     };
-    known.root.named(&scene::VIEW).into_iter().map(read).collect()
+    let named = known.root.named(&scene::VIEW);
+    let mut views: Vec<View> = named.iter().copied().map(read).collect();
+    let mut eyes = eyes("", main_camera, &[main]);
+    for (view, (_, _, keys)) in views.iter().zip(&named) {
+        eyes.extend(self::eyes(&format!("{}-", view.name), &view.camera, &[*keys, main]));
+    }
+    for (name, span, _) in &named {
+        if eyes.iter().any(|eye| eye.name == *name) {
+            let message = format!("`{name}` is already the name of the view of one eye");
+            let error = Diagnostic::error(Code::BadViewName, message).at(*span, "needs another name");
+            context.diagnostics.push(error.help("a camera with `stereo` has the views `left` and `right`"));
+        }
+    }
+    views.extend(eyes);
+    views
+}
+
+/// Warns of spherical pictures of another shape than 2:1. Viewers of 360° pictures would show everything too wide or too high.
+pub(super) fn check_size(root: &Keys<'_>, output: Output, context: &mut Context<'_>) {
+    let Output { width, height, .. } = output;
+    if width == Projection::SPHERICAL_ASPECT * height {
+        return;
+    }
+    let views = root.named(&scene::VIEW).into_iter().map(|(_, _, keys)| keys);
+    for keys in std::iter::once(root.table(&scene::CAMERA)).chain(views) {
+        if keys.get(&camera::PROJECTION) != Some("spherical") {
+            continue;
+        }
+        let message = format!(
+            "a spherical picture is twice as wide as high, and this one has {width} × {height} pixels"
+        );
+        let warning = Diagnostic::warning(Code::SphericalSize, message);
+        let warning = warning.help(format!(
+            "write `size = [{}, {height}]` in [output]",
+            Projection::SPHERICAL_ASPECT * height
+        ));
+        let span =
+            root.table(&scene::OUTPUT).span(&output_keys::SIZE).or_else(|| keys.span(&camera::PROJECTION));
+        context.diagnostics.extend(span.map(|span| warning.at(span, "")));
+        return;
+    }
+}
+
+/// Returns the views of the two eyes of a camera, if it has `stereo`. `tables` are the tables from which it was read.
+fn eyes(prefix: &str, camera: &Camera, tables: &[Keys<'_>]) -> Vec<View> {
+    let stereo = tables.iter().find_map(|keys| keys.get(&camera::STEREO));
+    let distance = stereo.filter(|_| matches!(camera.projection, Projection::Perspective { .. }));
+    let eye = |side, distance| View {
+        name: format!("{prefix}{side}"),
+        camera: Camera { eye: distance / 2.0, ..camera.clone() },
+    };
+    distance.map_or(Vec::new(), |distance| vec![eye("left", -distance), eye("right", distance)])
 }
 
 /// Reads a camera from one or two tables. Each value comes from the first table that has its key.
@@ -103,12 +155,15 @@ fn camera(tables: &[Keys<'_>], known: Known<'_, '_>, context: &mut Context<'_>) 
         (moving.location, moving.look_at) = (places.or(moving.location), aims.or(moving.look_at));
     }
     let number = |key: &Key<Option<f64>>| tables.iter().find_map(|keys| keys.get(key));
-    let orthographic = tables
-        .iter()
-        .find_map(|keys| keys.get(&camera::PROJECTION))
-        .is_some_and(|word| word == "orthographic");
+    // An angle that follows measures is known in each frame only.
+    let perspective = Projection::Perspective { angle: angle.at(0.0, |_| USUAL_ANGLE).clamp(0.1, 179.9) };
+    let projection = match tables.iter().find_map(|keys| keys.get(&camera::PROJECTION)) {
+        Some("orthographic") => Projection::Orthographic { width: number(&camera::WIDTH) },
+        Some("spherical") => Projection::Spherical,
+        _ => perspective,
+    };
     let open = number(&camera::SHUTTER).filter(|open| *open > 0.0);
-    misplaced(&tables[0], orthographic, number(&camera::APERTURE).is_some(), open.is_some(), context);
+    misplaced(&tables[0], projection, number(&camera::APERTURE).is_some(), open.is_some(), context);
     // Only check the camera's own `shutter`: an inherited one is reported for the main camera.
     if let (Some(open), Some(span)) = (tables[0].get(&camera::SHUTTER), tables[0].span(&camera::SHUTTER)) {
         context.diagnostics.extend(too_long(open, simulation).map(|error| error.at(span, "")));
@@ -121,16 +176,14 @@ fn camera(tables: &[Keys<'_>], known: Known<'_, '_>, context: &mut Context<'_>) 
         roll: roll.at(0.0, |_| 0.0),
         auto: auto(tables, &moving, context),
         motion: moving,
-        projection: if orthographic {
-            Projection::Orthographic { width: number(&camera::WIDTH) }
-        } else {
-            // An angle that follows measures is known in each frame only.
-            Projection::Perspective { angle: angle.at(0.0, |_| USUAL_ANGLE).clamp(0.1, 179.9) }
-        },
-        blur: number(&camera::APERTURE).map(|aperture| Blur {
-            aperture,
-            focus: vector(&camera::FOCUS),
-            samples: of(&camera::BLUR_SAMPLES.spec).get(&camera::BLUR_SAMPLES),
+        projection,
+        eye: 0.0,
+        blur: number(&camera::APERTURE).filter(|_| projection != Projection::Spherical).map(|aperture| {
+            Blur {
+                aperture,
+                focus: vector(&camera::FOCUS),
+                samples: of(&camera::BLUR_SAMPLES.spec).get(&camera::BLUR_SAMPLES),
+            }
         }),
         shutter: open.map(|open| Shutter { open, samples: of(&camera::SAMPLES.spec).get(&camera::SAMPLES) }),
     };
@@ -216,16 +269,27 @@ fn too_long(open: f64, simulation: &SimulationSettings) -> Option<Diagnostic> {
 }
 
 /// Warns of camera keys that have no effect without another key, such as `focus` without `aperture`.
-fn misplaced(keys: &Keys<'_>, orthographic: bool, aperture: bool, shutter: bool, context: &mut Context<'_>) {
+fn misplaced(
+    keys: &Keys<'_>,
+    projection: Projection,
+    aperture: bool,
+    shutter: bool,
+    context: &mut Context<'_>,
+) {
     let mut report = |key: &KeySpec, needs: &str| {
         let message = format!("`{}` has no effect without {needs}", key.name);
         let warning = Diagnostic::warning(Code::NoEffect, message);
         context.diagnostics.extend(keys.key_span(key).map(|span| warning.at(span, "")));
     };
-    if orthographic {
+    if !matches!(projection, Projection::Perspective { .. }) {
         report(&camera::ANGLE.spec, "`projection = \"perspective\"`");
-    } else {
+        report(&camera::STEREO.spec, "`projection = \"perspective\"`");
+    }
+    if !matches!(projection, Projection::Orthographic { .. }) {
         report(&camera::WIDTH.spec, "`projection = \"orthographic\"`");
+    }
+    if projection == Projection::Spherical {
+        report(&camera::APERTURE.spec, "`projection = \"perspective\"`");
     }
     if !aperture {
         report(&camera::FOCUS.spec, "`aperture`");

@@ -11,8 +11,8 @@ use crate::scene::grammar::scene::{environment, ground, output, scene};
 use crate::scene::grammar::shapes::{sdl, shape};
 use crate::scene::value::{self, Text};
 use crate::scene::{
-    Body, BodyLook, Color, DecimalSign, Environment, Ground, Layout, Light, LightKind, LookNumber, Output,
-    Preset, Sky, Visibility,
+    Body, BodyLook, Camera, Color, DecimalSign, Environment, Ground, Layout, Light, LightKind, LookNumber,
+    Output, Preset, Projection, Sky, Visibility,
 };
 
 /// Reads the `look` of a body: the scale at which it is drawn, whether it is drawn, and its raw SDL.
@@ -105,12 +105,15 @@ pub(super) fn environment(root: &View<'_>, bodies: &[Body]) -> Environment {
     }
 }
 
-pub(super) fn output(view: &View<'_>) -> Output {
+/// Reads `[output]`. `camera` is the main camera, on which the default size depends.
+pub(super) fn output(view: &View<'_>, camera: &Camera) -> Output {
     let size = view.get(&output::SIZE);
     let pixels = |i: usize| size.get(i).and_then(|n| u32::try_from(*n).ok()).unwrap_or_default();
+    let [width, height] = [pixels(0), pixels(1)];
+    let is_chosen = camera.projection == Projection::Spherical && !view.has(&output::SIZE);
     Output {
-        width: pixels(0),
-        height: pixels(1),
+        width: if is_chosen { Projection::SPHERICAL_ASPECT * height } else { width },
+        height,
         layout: view.choice(&output::LAYOUT, Layout::ALL, Layout::name),
         transparent: view.get(&output::TRANSPARENT),
         video_rate: view.get(&output::VIDEO_RATE),

@@ -378,7 +378,9 @@ fn build(
     let value_maps = value_map::read(&root, things, context);
     let conditions = value_map::conditions(&root, things, context);
     let camera = camera::read(known, context);
-    let output = look::output(&root.table(&scene::OUTPUT));
+    let views = camera::views(known, &camera, context);
+    let output = look::output(&root.table(&scene::OUTPUT), &camera);
+    camera::check_size(&root, output, context);
     context.diagnostics.extend(context.meshes.too_large_to_repeat(&simulation, &camera, output));
     let angles = marks::angles(known, context);
     let distances = marks::distances(known, context);
@@ -399,7 +401,7 @@ fn build(
         name: input.name.to_owned(),
         title: root.get(&scene::TITLE).map(str::to_owned),
         camera,
-        views: camera::views(known, context),
+        views,
         lights: look::lights(known, context),
         pairs: std::mem::take(&mut context.pairs),
         file_columns: std::mem::take(&mut context.file_columns),

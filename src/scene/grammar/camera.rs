@@ -5,10 +5,10 @@ use super::key::table;
 use super::kind::{AXIS, NON_NEGATIVE, POSITIVE, VARYING_POINT, VECTOR};
 use super::motion::BETWEEN_KEYFRAMES;
 use super::{Bound, Collection, KeySpec, Rule};
-use crate::scene::Auto;
+use crate::scene::{Auto, Projection};
 
 fn projections() -> Vec<&'static str> {
-    vec!["perspective", "orthographic"]
+    Projection::NAMES.to_vec()
 }
 
 fn autos() -> Vec<&'static str> {
@@ -78,10 +78,18 @@ table! {
     PROJECTION: Option<value::Text> = KeySpec::new(
         "projection",
         Choice(projections),
-        "The projection: perspective, or orthographic (parallel rays)",
+        "The projection: perspective, orthographic (parallel rays), or spherical (a picture of all directions, for 360° viewers)",
     )
     .default("perspective")
     .also(&["type", "kind"]),
+    STEREO: Option<f64> = KeySpec::new(
+        "stereo",
+        POSITIVE,
+        "The distance between two eyes; adds the views `left` and `right`. What `look_at` shows lies in the plane of the screen",
+    )
+    .unit("m")
+    .default("one eye")
+    .also(&["eye_distance", "interocular", "baseline", "eye_separation"]),
     WIDTH: Option<f64> = KeySpec::new("width", POSITIVE, "The width in view of an orthographic camera")
         .unit("m")
         .default("fits the whole motion into the picture"),

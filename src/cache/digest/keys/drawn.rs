@@ -99,6 +99,7 @@ pub(super) const KEYS_THAT_DRAW: &[(&str, &[&str])] = &[
             "follow",
             "orbit",
             "angle",
+            "stereo",
             "projection",
             "width",
             "aperture",
