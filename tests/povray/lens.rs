@@ -60,7 +60,7 @@ fn a_spherical_picture_shows_all_directions_and_is_level() {
         script(&format!("{bodies}{DARK}{camera}look_at = {look_at:?}\n"))
     });
     let [down, right] = render_all([down, right], ALL_AROUND);
-    let elevation = |height: f64, level: f64| height.atan2(level).to_degrees();
+    let elevation = |height: f64, level: f64| libm::atan2(height, level).to_degrees();
     // Seen from the camera: 4 m to the right; 1 m right, 5 m back and 3 m up; 5 m ahead and 3 m down.
     let behind = 180.0 - elevation(1.0, 5.0);
     let high = elevation(3.0, 26.0_f64.sqrt());
@@ -110,8 +110,9 @@ fn two_eyes_see_what_they_look_at_in_one_place_and_near_things_apart() {
     let apart =
         |is_wanted: fn(Rgb) -> bool| left.spot(is_wanted).middle().x - right.spot(is_wanted).middle().x;
     // By similar triangles, a point at distance d has the parallax e (1/d - 1/D), in a picture that is 2 tan(20°) wide at a distance of 1.
-    let parallax =
-        |distance: f64| 1.0 * (1.0 / distance - 1.0 / 10.0) / (2.0 * 20.0_f64.to_radians().tan()) * 160.0;
+    let parallax = |distance: f64| {
+        1.0 * (1.0 / distance - 1.0 / 10.0) / (2.0 * libm::tan(20.0_f64.to_radians())) * 160.0
+    };
     for (seen, distance) in [(apart(is_red), 10.0), (apart(is_blue), 5.0), (apart(is_green), 30.0)] {
         assert!(
             (seen - parallax(distance)).abs() < 0.5,
