@@ -5,9 +5,9 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::factor::PIVOT_TOLERANCE;
-use super::jacobian::product;
 use super::member::Member;
 use super::solver::Solver;
+use super::structure::ConstraintBlock;
 use super::{Direction, Law};
 
 /// The columns of M⁻¹ Jᵀ, one per constraint row, including the reactions of the joints. A column holds the velocity changes of the bodies
@@ -25,6 +25,44 @@ pub(super) struct UnitResponse {
     pub(super) member: usize,
     pub(super) velocity: DVec3,
     pub(super) angular_velocity: DVec3,
+}
+
+/// The number of rows of one constraint whose columns are computed together: those of a contact with friction. The joints' equations are
+/// read once for all of them.
+const LANES: usize = 3;
+
+/// The velocity changes of one body under unit impulses along several rows.
+#[derive(Clone, Copy, Default)]
+struct Moved {
+    velocity: [DVec3; LANES],
+    angular_velocity: [DVec3; LANES],
+}
+
+/// Working memory for columns. `moved` and `unknown` are zero between two constraints.
+#[derive(Default)]
+struct Work {
+    /// One entry per member.
+    moved: Vec<Moved>,
+    /// One entry per row.
+    unknown: Vec<[f64; LANES]>,
+    /// The members that move, the mechanisms that the rows touch, and the rows of these mechanisms.
+    members: Vec<usize>,
+    mechanisms: Vec<usize>,
+    rows: Vec<usize>,
+}
+
+/// Computes the rates J v of a row from the velocity changes of its bodies.
+fn rates(directions: &[Direction], moved: &[Moved]) -> [f64; LANES] {
+    let mut sums = [0.0; LANES];
+    for direction in directions {
+        let of = &moved[direction.member];
+        let turns = direction.angular != DVec3::ZERO;
+        for (lane, sum) in sums.iter_mut().enumerate() {
+            let turning = if turns { direction.angular.dot(of.angular_velocity[lane]) } else { 0.0 };
+            *sum += direction.linear.dot(of.velocity[lane]) + turning;
+        }
+    }
+    sums
 }
 
 impl Columns {
@@ -77,78 +115,104 @@ impl Solver {
         let mut columns = std::mem::take(&mut self.columns);
         columns.clear();
         let has_joints = self.held.contains(&true);
-        // Working memory, which is zero between rows.
-        let mut moved: Vec<Member> = if has_joints { self.members.clone() } else { Vec::new() };
-        for member in &mut moved {
-            (member.velocity, member.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
-        }
-        let mut unknown = vec![0.0; self.rows.len()];
-        for row in 0..self.rows.len() {
-            if self.laws[row] == Law::Equality {
-                columns.push(std::iter::empty(), 0.0);
-            } else if has_joints && self.is_on_mechanism(row) {
-                self.push_held_column(row, &mut columns, &mut moved, &mut unknown);
-            } else {
-                self.push_free_column(row, &mut columns);
+        let mut work = Work::default();
+        for place in self.structure.iter().flat_map(|structure| &structure.places) {
+            let is_held = has_joints && self.is_on_mechanism(place);
+            let mut row = place.row;
+            while row < place.row + place.rows {
+                if self.laws[row] == Law::Equality {
+                    columns.push(std::iter::empty(), 0.0);
+                    row += 1;
+                } else if is_held {
+                    let rest = &self.laws[row..place.row + place.rows];
+                    let free = rest.iter().take(LANES).take_while(|law| **law != Law::Equality).count();
+                    self.push_held_columns(place, row..row + free, &mut columns, &mut work);
+                    row += free;
+                } else {
+                    self.push_free_column(row, &mut columns);
+                    row += 1;
+                }
             }
         }
         self.columns = columns;
     }
 
-    /// Returns true if joints act on a body of a constraint row.
-    fn is_on_mechanism(&self, row: usize) -> bool {
+    /// Returns true if joints act on a body of a constraint.
+    fn is_on_mechanism(&self, place: &ConstraintBlock) -> bool {
         let Some(structure) = &self.structure else { return false };
-        let directions = &self.jacobian[structure.directions_of(row)];
-        directions.iter().any(|direction| structure.mechanism_of[direction.member].is_some())
+        place.bodies.iter().any(|member| structure.mechanism_of[*member].is_some())
     }
 
-    /// Appends the velocity changes under a unit impulse along a constraint row when joints are active. The reactions of the joints move
-    /// other bodies of the mechanism as well. The column of a row along which the joints block all motion is empty. `moved` and `unknown` are
-    /// working memory.
-    fn push_held_column(&self, row: usize, columns: &mut Columns, moved: &mut [Member], unknown: &mut [f64]) {
+    /// Appends the velocity changes under unit impulses along up to [`LANES`] rows of a constraint when joints are active. The reactions of
+    /// the joints move other bodies of the mechanism as well. The column of a row along which the joints block all motion is empty.
+    fn push_held_columns(
+        &self,
+        place: &ConstraintBlock,
+        own: Range<usize>,
+        columns: &mut Columns,
+        work: &mut Work,
+    ) {
         let Some(structure) = &self.structure else { return };
-        let directions = &self.jacobian[structure.directions_of(row)];
-        let mut mechanisms: Vec<usize> =
-            directions.iter().filter_map(|direction| structure.mechanism_of[direction.member]).collect();
+        let Work { moved, unknown, members, mechanisms, rows } = work;
+        moved.resize(self.members.len(), Moved::default());
+        unknown.resize(self.rows.len(), [0.0; LANES]);
+        mechanisms.clear();
+        mechanisms.extend(place.bodies.iter().filter_map(|member| structure.mechanism_of[*member]));
         mechanisms.sort_unstable();
         mechanisms.dedup();
-        let rows = || mechanisms.iter().flat_map(|&mechanism| &structure.mechanisms[mechanism].rows).copied();
-        let mut members: Vec<usize> = directions.iter().map(|direction| direction.member).collect();
-        members.extend(mechanisms.iter().flat_map(|&mechanism| &structure.mechanisms[mechanism].members));
+        let of = || mechanisms.iter().map(|&mechanism| &structure.mechanisms[mechanism]);
+        rows.clear();
+        rows.extend(of().flat_map(|mechanism| &mechanism.rows));
+        members.clear();
+        members.extend(place.bodies.iter().chain(of().flat_map(|mechanism| &mechanism.members)));
         members.sort_unstable();
         members.dedup();
-        for direction in directions {
-            let member = &mut moved[direction.member];
-            member.velocity += member.inverse_mass * direction.linear;
-            member.angular_velocity += member.turn(direction.angular);
+
+        let directions = |row: usize| &self.jacobian[structure.directions_of(row)];
+        let mut free = [0.0; LANES];
+        for (lane, row) in own.clone().enumerate() {
+            for direction in directions(row) {
+                let member = &self.members[direction.member];
+                let moved = &mut moved[direction.member];
+                moved.velocity[lane] += member.inverse_mass * direction.linear;
+                moved.angular_velocity[lane] += member.turn(direction.angular);
+            }
+            free[lane] = rates(directions(row), moved)[lane];
         }
-        let free = product(structure, &self.jacobian, moved, row).0;
-        for row in rows() {
-            unknown[row] = -product(structure, &self.jacobian, moved, row).0;
+        for &member in &place.bodies {
+            for &row in &structure.rows_of[member] {
+                unknown[row] = rates(directions(row), moved).map(|rate| -rate);
+            }
         }
-        self.factor.solve_rows(unknown, rows().collect::<Vec<_>>().as_slice());
-        for row in rows() {
-            let multiplier = std::mem::take(&mut unknown[row]);
-            if multiplier != 0.0 {
-                for direction in &self.jacobian[structure.directions_of(row)] {
-                    let member = &mut moved[direction.member];
-                    member.velocity += multiplier * member.inverse_mass * direction.linear;
-                    member.angular_velocity += member.turn(multiplier * direction.angular);
+        self.factor.solve_rows(unknown, rows);
+        for &row in &*rows {
+            let multipliers = std::mem::take(&mut unknown[row]);
+            if multipliers != [0.0; LANES] {
+                for direction in directions(row) {
+                    let member = &self.members[direction.member];
+                    let moved = &mut moved[direction.member];
+                    for (lane, multiplier) in multipliers.into_iter().enumerate() {
+                        moved.velocity[lane] += multiplier * member.inverse_mass * direction.linear;
+                        moved.angular_velocity[lane] += member.turn(multiplier * direction.angular);
+                    }
                 }
             }
         }
-        let weight = product(structure, &self.jacobian, moved, row).0;
-        // The joints can block all motion along this row. The remaining response is then only a rounding error, of either sign.
-        let is_blocked = weight <= PIVOT_TOLERANCE * free;
-        let change = |member: usize| {
-            let moved = &mut moved[member];
-            let change =
-                UnitResponse { member, velocity: moved.velocity, angular_velocity: moved.angular_velocity };
-            (moved.velocity, moved.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
-            change
-        };
-        let changes: Vec<UnitResponse> = members.into_iter().map(change).collect();
-        columns.push(changes.into_iter().filter(|_| !is_blocked), if is_blocked { 0.0 } else { weight });
+        for (lane, row) in own.enumerate() {
+            let weight = rates(directions(row), moved)[lane];
+            // The joints can block all motion along this row. The remaining response is then only a rounding error, of either sign.
+            let is_blocked = weight <= PIVOT_TOLERANCE * free[lane];
+            let change = |&member: &usize| {
+                let (velocity, angular_velocity) =
+                    (moved[member].velocity[lane], moved[member].angular_velocity[lane]);
+                UnitResponse { member, velocity, angular_velocity }
+            };
+            columns.push(
+                members.iter().map(change).filter(|_| !is_blocked),
+                if is_blocked { 0.0 } else { weight },
+            );
+        }
+        members.iter().for_each(|member| moved[*member] = Moved::default());
     }
 
     /// Appends the velocity changes under a unit impulse along a constraint row when no joint is active: only the bodies of this row move.

@@ -297,19 +297,27 @@ impl Factor {
     }
 
     /// Solves A x = b as [`solve`](Self::solve) does, for rows that are coupled to no others. `rows` are in ascending order.
-    pub(super) fn solve_rows(&self, x: &mut [f64], rows: &[usize]) {
+    /// `x` holds several right-hand sides.
+    pub(super) fn solve_rows<const LANES: usize>(&self, x: &mut [[f64; LANES]], rows: &[usize]) {
         for &i in rows {
-            let value = x[i];
+            let values = x[i];
+            if values == [0.0; LANES] {
+                continue;
+            }
             for entry in &self.lower[self.lines[i].below.clone()] {
-                x[entry.row] -= entry.value * value;
+                for (x, value) in x[entry.row].iter_mut().zip(values) {
+                    *x -= entry.value * value;
+                }
             }
         }
         for &i in rows.iter().rev() {
-            let mut value = x[i] * self.inverse[i];
+            let mut values = x[i].map(|value| value * self.inverse[i]);
             for entry in &self.lower[self.lines[i].below.clone()] {
-                value -= entry.value * x[entry.row];
+                for (value, x) in values.iter_mut().zip(x[entry.row]) {
+                    *value -= entry.value * x;
+                }
             }
-            x[i] = value;
+            x[i] = values;
         }
     }
 

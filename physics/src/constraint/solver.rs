@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::super::contact::LastingContact;
-use super::super::{Anchor, Breakdown, Model, Motion, State};
+use super::super::{Anchor, BodyId, Breakdown, Model, Motion, State};
 use super::columns::Columns;
 use super::factor::Factor;
 use super::friction::FrictionPair;
@@ -210,6 +210,42 @@ impl Solver {
         }
     }
 
+    /// Returns true if the layout of the joints is that of the model: the same joints, of the same bodies that are present and can move.
+    pub(super) fn fits(&self, model: &Model) -> bool {
+        let Some(structure) = &self.structure else { return false };
+        let joints = model.constraints();
+        let is_there = |id: &BodyId| model.is_present(id.index()) && !self.away.contains(&id.index());
+        let has_place = |(index, joint): (usize, &Arc<dyn Constraint>)| {
+            Arc::ptr_eq(joint, &self.all[index])
+                && self.first_row[index].is_some() == joint.bodies().iter().all(is_there)
+        };
+        let moves = |(body, nature): (&usize, &BodyConstants)| {
+            model.is_present(*body) && nature.can_move() == (model.inverse_mass()[*body] != 0.0)
+        };
+        self.all.len() == joints.len() + self.contacts.len()
+            && joints.iter().enumerate().all(has_place)
+            && structure.bodies.iter().zip(&self.natures).all(moves)
+    }
+
+    /// Forgets what belongs to the last contacts and keeps the layout, into which the present ones fit.
+    pub(super) fn start_anew(&mut self, model: &Model) {
+        let Some(structure) = &self.structure else { return };
+        self.all.truncate(model.constraints().len());
+        self.all.extend(self.contacts.iter().map(|contact| contact.clone() as Arc<dyn Constraint>));
+        self.natures = structure.bodies.iter().map(|&body| BodyConstants::of(body, model)).collect();
+        self.set_members();
+        self.modes = self.laws.iter().map(Mode::first).collect();
+        self.held.fill(false);
+        self.unknown.fill(0.0);
+    }
+
+    /// Lays out the members, whose places are not known yet.
+    fn set_members(&mut self) {
+        self.members = self.natures.iter().map(Member::new).collect();
+        self.origin.clone_from(&self.members);
+        (self.measured, self.factorised) = (f64::NAN, f64::NAN);
+    }
+
     #[cold]
     fn make_structure(&mut self, model: &Model) {
         let can_move = |body: usize| model.inverse_mass()[body] != 0.0;
@@ -239,8 +275,7 @@ impl Solver {
         }
         self.natures = structure.bodies.iter().map(|&body| BodyConstants::of(body, model)).collect();
         structure.length = self.size_of(&structure);
-        self.members = self.natures.iter().map(Member::new).collect();
-        (self.measured, self.factorised) = (f64::NAN, f64::NAN);
+        self.set_members();
         self.motions = structure.bodies.iter().map(|&body| model.motion(body)).collect();
         self.rows = vec![Row::default(); structure.rows];
         self.jacobian = structure.places.iter().flat_map(ConstraintBlock::directions).collect();
@@ -255,7 +290,6 @@ impl Solver {
         self.has_modes = self.laws.iter().any(|law| *law != Law::Equality);
         self.modes = self.laws.iter().map(Mode::first).collect();
         self.held = vec![false; structure.rows];
-        self.origin = self.members.clone();
         self.unknown = vec![0.0; structure.rows];
         self.structure = Some(structure);
     }

@@ -28,6 +28,8 @@ pub(super) struct Structure {
     /// The mechanism of each member, if coupled constraints act on it: an index into `mechanisms`.
     pub(super) mechanism_of: Vec<Option<usize>>,
     pub(super) mechanisms: Vec<Mechanism>,
+    /// For each member, the rows of the coupled constraints that act on it, in ascending order.
+    pub(super) rows_of: Vec<Vec<usize>>,
 }
 
 /// Bodies that can move and are connected by coupled constraints.
@@ -170,13 +172,19 @@ impl Structure {
             });
             mechanisms[mechanism].rows.extend(place.row..place.row + place.rows);
         }
+        let mut rows_of = vec![Vec::new(); self.bodies.len()];
+        for place in coupled() {
+            for member in &place.bodies {
+                rows_of[*member].extend(place.row..place.row + place.rows);
+            }
+        }
         for member in 0..self.bodies.len() {
             of[member] = of[sets.first(member)];
             if let Some(mechanism) = of[member] {
                 mechanisms[mechanism].members.push(member);
             }
         }
-        (self.mechanism_of, self.mechanisms) = (of, mechanisms);
+        (self.mechanism_of, self.mechanisms, self.rows_of) = (of, mechanisms, rows_of);
     }
 }
 

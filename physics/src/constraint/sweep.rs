@@ -3,8 +3,11 @@
 //!
 //! Source: M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999) 235.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
+use super::super::contact::LastingContact;
 use super::super::{Model, State};
 use super::anderson::Anderson;
 use super::friction::FrictionPair;
@@ -86,6 +89,24 @@ impl Solver {
     /// Lets Gauss–Seidel sweeps find the forces of contacts from now on.
     pub(crate) fn find_by_sweeps(&mut self) {
         self.is_swept = true;
+    }
+
+    /// Replaces the contacts of the solver. Gauss–Seidel sweeps find their forces from now on.
+    pub(crate) fn take_contacts_for_sweeps(&mut self, contacts: Vec<Arc<LastingContact>>, model: &Model) {
+        let fits = |(old, new): (&Arc<LastingContact>, &Arc<LastingContact>)| {
+            old.bodies == new.bodies && old.law == new.law
+        };
+        let has_place = self.is_swept
+            && contacts.len() == self.contacts.len()
+            && self.contacts.iter().zip(&contacts).all(fits)
+            && self.fits(model);
+        self.find_by_sweeps();
+        self.contacts = contacts;
+        if has_place {
+            self.start_anew(model);
+        } else {
+            self.forget();
+        }
     }
 
     /// Evaluates all equations at a state, removes velocities that violate the joints, and computes the effects of unit impulses.

@@ -33,6 +33,8 @@ pub(crate) struct Crowd {
     /// Finds the impulses if there are joints. `pile` finds them otherwise.
     solver: Solver,
     pile: Pile,
+    /// Closes the joints after a substep, without contacts.
+    joints: Solver,
     /// The motion of the crowd until the end of the step; `None` until it is computed.
     course: Option<SubstepMotion>,
     /// The contacts of the crowd at the end of the last step.
@@ -146,7 +148,11 @@ impl Collider {
             let all = of_pile.iter().chain(places.iter().map(|place| &**place));
             return self.crowd.pile.last_forces(all, model, state);
         }
-        self.crowd.solver.last_forces(places, model, t, state)
+        let (free, jointed) = self::impulses::without_joints(owned(&places), model);
+        let mut forces = self.crowd.pile.last_forces(&free, model, state);
+        forces.extend(self.crowd.solver.last_forces(shared(jointed), model, t, state));
+        forces.sort_by_key(|contact| contact.bodies);
+        forces
     }
 
     /// Computes the contact forces between resting bodies. `loads` are all other forces and torques on these bodies.
@@ -158,10 +164,13 @@ impl Collider {
         loads: &Loads,
     ) -> Vec<ContactSnapshot> {
         if model.constraints().is_empty() {
-            let places = places.iter().map(|place| (**place).clone()).collect();
-            return self.crowd.pile.forces_at_rest(places, (model, state), loads);
+            return self.crowd.pile.forces_at_rest(owned(places), (model, state), loads);
         }
-        self.crowd.solver.forces_at_rest(places.to_vec(), model, (t, state), loads)
+        let (free, jointed) = self::impulses::without_joints(owned(places), model);
+        let mut forces = self.crowd.pile.forces_at_rest(free, (model, state), loads);
+        forces.extend(self.crowd.solver.forces_at_rest(shared(jointed), model, (t, state), loads));
+        forces.sort_by_key(|contact| contact.bodies);
+        forces
     }
 
     /// Returns true if a body is in the crowd, has just left it, or has been in it as part of a heap.
@@ -264,4 +273,14 @@ impl Collider {
         self.crowd.bodies = bodies;
         touching
     }
+}
+
+/// Returns copies of contacts.
+fn owned(places: &[Arc<LastingContact>]) -> Vec<LastingContact> {
+    places.iter().map(|place| (**place).clone()).collect()
+}
+
+/// Returns contacts in the form in which the general solver takes them.
+fn shared(places: Vec<LastingContact>) -> Vec<Arc<LastingContact>> {
+    places.into_iter().map(Arc::new).collect()
 }

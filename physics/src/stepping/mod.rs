@@ -10,8 +10,8 @@
 //!
 //! # Where it is used
 //!
-//! Scenes with `contacts = "time-stepping"` use this engine if forces move more than sixty bodies, or more than twenty where there are
-//! joints, or if a torus collides (`is_by_moreau` in `scene/contact.rs` of jabuka). For fewer bodies, the world's own Moreau scheme is exact
+//! Scenes with `contacts = "time-stepping"` use this engine if forces move more than sixty bodies, or if a torus
+//! collides (`is_by_moreau` in `scene/contact.rs` of jabuka). For fewer bodies, the world's own Moreau scheme is exact
 //! in joints and fast enough.
 //!
 //! The engine takes over a `World`, so forces, given motions, presence, energy accounts and expected energy are the same. One step of jabuka

@@ -62,7 +62,7 @@ impl Collider {
     /// Returns the contacts of the crowd at the end of the last step.
     pub(crate) fn last_places(&self, model: &Model, state: &State) -> Vec<Arc<LastingContact>> {
         let mut all = self.crowd.places.clone();
-        if self.crowd.is_all {
+        if self.crowd.is_all && model.constraints().is_empty() {
             all.extend(self.places_of_pile(model, state).into_iter().map(Arc::new));
         }
         all

@@ -1,8 +1,9 @@
-//! What finds the impulses of a substep: a pile if there are no joints, and otherwise the general solver.
+//! What finds the impulses of a substep: a pile for bodies that have nothing to do with joints, and the general solver for all others.
 
 use std::sync::Arc;
 
 use super::super::super::constraint::{Pile, Purpose, Solver, Struck};
+use super::super::super::sets::Sets;
 use super::super::super::{Loads, Model, State};
 use super::super::lasting_contact::LastingContact;
 use super::substep_motion::PUSHING_CONTACT_TOLERANCE;
@@ -98,6 +99,103 @@ impl Impulses for Pile {
     }
 }
 
+/// A pile, and beside it mechanisms with all that touches them.
+pub(super) struct Mixed<'a> {
+    pile: &'a mut Pile,
+    jointed: Jointed<'a>,
+}
+
+impl<'a> Mixed<'a> {
+    pub(super) fn of(pile: &'a mut Pile, solver: &'a mut Solver) -> Mixed<'a> {
+        Mixed { pile, jointed: Jointed::of(solver) }
+    }
+}
+
+/// Splits contacts into those of islands that no joint belongs to, and all others.
+pub(super) fn without_joints(
+    contacts: Vec<LastingContact>,
+    model: &Model,
+) -> (Vec<LastingContact>, Vec<LastingContact>) {
+    let moves = |body: usize| model.inverse_mass()[body] != 0.0;
+    let mut islands = Sets::new(model.len());
+    for [a, b] in contacts.iter().map(|contact| contact.bodies) {
+        if moves(a) && moves(b) {
+            islands.unite(a, b);
+        }
+    }
+    let mut has_joint = vec![false; model.len()];
+    for body in model.constraints().iter().flat_map(|joint| joint.bodies()) {
+        has_joint[islands.first(body.index())] = true;
+    }
+    contacts.into_iter().partition(|contact| {
+        let [a, b] = contact.bodies;
+        !has_joint[islands.first(if moves(a) { a } else { b })]
+    })
+}
+
+impl Impulses for Mixed<'_> {
+    fn begin(&mut self, contacts: Vec<LastingContact>, model: &Model, span: (f64, f64), state: &mut State) {
+        let (free, jointed) = without_joints(contacts, model);
+        self.pile.begin(free, model, span, state);
+        self.jointed.begin(jointed, model, span, state);
+    }
+
+    fn strike(&mut self, model: &Model, span: (f64, f64), state: &mut State, loads: &Loads) -> Struck {
+        let mut struck = self.pile.strike(model, span, state, loads);
+        let of_joints = self.jointed.strike(model, span, state, loads);
+        struck.impacts.extend(of_joints.impacts);
+        struck.impacts.sort_by(|a, b| a.time.total_cmp(&b.time));
+        struck.early.extend(of_joints.early);
+        struck.fallen += of_joints.fallen;
+        struck
+    }
+
+    fn join(&mut self, model: &Model, t: f64, state: &mut State) {
+        self.jointed.join(model, t, state);
+    }
+
+    fn measure(&mut self, model: &Model, t: f64, state: &mut State) {
+        self.pile.measure(model, state);
+        self.jointed.measure(model, t, state);
+    }
+
+    fn push(&mut self, model: &Model, half: f64, state: &mut State) {
+        self.pile.push(model, half, state);
+        self.jointed.push(model, half, state);
+    }
+
+    fn hardest_contact(&self) -> Option<([usize; 2], f64)> {
+        let all = [Pile::hardest_contact(self.pile), self.jointed.hardest_contact()];
+        let sum = all.iter().flatten().map(|(_, sum)| sum).sum();
+        let hardest = all.into_iter().flatten().max_by(|(_, a), (_, b)| a.total_cmp(b));
+        hardest.map(|(bodies, _)| (bodies, sum))
+    }
+
+    fn least_size(&self) -> f64 {
+        Pile::least_size(self.pile).min(self.jointed.least_size())
+    }
+
+    fn widest_joint(&self) -> f64 {
+        self.jointed.widest_joint()
+    }
+
+    fn pushing_pairs(&self) -> Vec<[usize; 2]> {
+        let mut pairs = self.jointed.pushing_pairs();
+        pairs.extend(self.pile.pushing());
+        pairs
+    }
+
+    fn are_within(&mut self, model: &Model, t: f64, state: &State) -> bool {
+        let in_pile = self.pile.are_within(model, state);
+        self.jointed.are_within(model, t, state) || in_pile
+    }
+
+    fn move_apart(&mut self, model: &Model, state: &mut State) {
+        self.pile.move_apart(model, state);
+        self.jointed.move_apart(model, state);
+    }
+}
+
 /// The general solver in one substep.
 pub(super) struct Jointed<'a> {
     solver: &'a mut Solver,
@@ -122,9 +220,7 @@ impl<'a> Jointed<'a> {
         t: f64,
         state: &mut State,
     ) {
-        self.solver.find_by_sweeps();
-        self.solver.take_contacts(contacts.into_iter().map(Arc::new).collect());
-        self.solver.forget();
+        self.solver.take_contacts_for_sweeps(contacts.into_iter().map(Arc::new).collect(), model);
         self.solver.hold_joints(model, t, state);
     }
 }
@@ -137,9 +233,7 @@ impl Impulses for Jointed<'_> {
         (t, part): (f64, f64),
         state: &mut State,
     ) {
-        self.solver.find_by_sweeps();
-        self.solver.take_contacts(contacts.into_iter().map(Arc::new).collect());
-        self.solver.forget();
+        self.solver.take_contacts_for_sweeps(contacts.into_iter().map(Arc::new).collect(), model);
         self.solver.prepare_sweeps(model, t, state);
         self.goals = self.solver.gaps(PUSHING_CONTACT_TOLERANCE).iter().map(|gap| -gap / part).collect();
     }

@@ -9,7 +9,7 @@ use super::super::impacts::kinetic;
 use super::super::lasting_contact::LastingContact;
 use super::super::laws::LawResidual;
 use super::Crowd;
-use super::impulses::{Impulses, Jointed};
+use super::impulses::{Impulses, Mixed};
 
 impl Crowd {
     /// Advances the crowd by one substep of `part` seconds from time `t`. `closed` holds its possible contacts. Returns the energy that the
@@ -24,10 +24,10 @@ impl Crowd {
     ) -> Option<LawResidual> {
         self.pushing.clear();
         if !model.constraints().is_empty() {
-            let mut solver = std::mem::take(&mut self.solver);
-            let residual =
-                self.advance_by(&mut Jointed::of(&mut solver), closed, model, (t, part), (now, loads));
-            self.solver = solver;
+            let (mut pile, mut solver) = (std::mem::take(&mut self.pile), std::mem::take(&mut self.solver));
+            let mut both = Mixed::of(&mut pile, &mut solver);
+            let residual = self.advance_by(&mut both, closed, model, (t, part), (now, loads));
+            (self.pile, self.solver) = (pile, solver);
             return residual;
         }
         let mut pile = std::mem::take(&mut self.pile);

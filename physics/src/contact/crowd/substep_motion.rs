@@ -262,9 +262,12 @@ impl Collider {
             }
         }
         if !model.constraints().is_empty() {
-            crowd.solver.take_contacts(Vec::new());
-            crowd.solver.hold_joints(model, time + part, now);
-            crowd.solver.settle(model, time + part, now);
+            crowd.joints.take_contacts_for_sweeps(Vec::new(), model);
+            crowd.joints.hold_joints(model, time + part, now);
+            crowd.joints.settle(model, time + part, now);
+            if let Some(breakdown) = crowd.joints.take_failure() {
+                crowd.solver.fail(breakdown);
+            }
         }
     }
 

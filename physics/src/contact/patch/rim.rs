@@ -2,6 +2,7 @@
 //! angle on the rim, to within rounding errors.
 
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 use glam::DVec3;
 
@@ -9,7 +10,7 @@ use super::super::closest_points::ClosestPoints;
 use super::{PARALLEL_SINE, Spine, balls, radial};
 
 /// The number of equally spaced angles on the rim. Newton's method starts at the best of them.
-const START_ANGLES: u32 = 24;
+const START_ANGLES: usize = 24;
 /// The largest number of Newton steps or halvings. So many halvings shrink an interval to rounding errors.
 const MAX_STEPS: u32 = 60;
 
@@ -23,11 +24,10 @@ pub(super) struct Rim {
 }
 
 impl Rim {
-    /// Returns the radial unit vector of the rim at an angle, rad.
-    fn radial(&self, angle: f64) -> DVec3 {
+    /// Returns the radial unit vectors of the rim at the angles 0 and 90°.
+    fn radials(&self) -> [DVec3; 2] {
         let x = self.axis.any_orthonormal_vector();
-        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
-        cos * x + sin * self.axis.cross(x)
+        [x, self.axis.cross(x)]
     }
 
     /// Returns the radial unit vector that points from the rim's axis to a given point. For a point on the axis, any radial direction will
@@ -36,6 +36,32 @@ impl Rim {
         radial(place - self.centre, self.axis).unwrap_or_else(|| self.axis.any_orthonormal_vector())
     }
 }
+
+/// An angle on a rim, with its sine and cosine.
+#[derive(Clone, Copy)]
+struct Angle {
+    radians: f64,
+    sin: f64,
+    cos: f64,
+}
+
+impl Angle {
+    fn of(radians: f64) -> Angle {
+        Angle { radians, sin: libm::sin(radians), cos: libm::cos(radians) }
+    }
+
+    /// Returns the radial unit vector at this angle, from those at the angles 0 and 90°.
+    fn radial(self, [x, y]: [DVec3; 2]) -> DVec3 {
+        self.cos * x + self.sin * y
+    }
+}
+
+/// Equally spaced angles on a rim.
+static STARTS: LazyLock<[Angle; START_ANGLES]> =
+    LazyLock::new(|| std::array::from_fn(|step| Angle::of(APART * step as f64)));
+
+/// The distance of two neighboring start angles, rad.
+const APART: f64 = TAU / START_ANGLES as f64;
 
 /// Computes the closest points of a rim and an envelope of balls (an edge, a round side, or a ball).
 pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> ClosestPoints {
@@ -56,13 +82,14 @@ pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> ClosestPoints {
         let from = rim.centre + rim.radius * radial - spine.at;
         (from.dot(v).abs() - spine.half).max(0.0)
     };
-    let gap = |angle: f64| {
-        let radial = rim.radial(angle);
+    let radials = rim.radials();
+    let gap = |angle: Angle| {
+        let radial = angle.radial(radials);
         let (gap, beyond) = (value(radial) - spine.radius, beyond(radial));
         if beyond > 0.0 { libm::hypot(gap.max(0.0), beyond) } else { gap }
     };
     let angle = lowest(gap, |angle| {
-        let radial = rim.radial(angle);
+        let radial = angle.radial(radials);
         let tangent = rim.radius * rim.axis.cross(radial);
         let (from, bend) = (rim.centre + rim.radius * radial - spine.at, -rim.radius * radial);
         let (d, dt, db) = (across(from), across(tangent), across(bend));
@@ -77,7 +104,7 @@ pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> ClosestPoints {
             slope * (second / h - first * first / (h * h * h)) - spine.taper * bend.dot(v),
         ]
     });
-    let radial = rim.radial(angle);
+    let radial = angle.radial(radials);
     let place = rim.centre + rim.radius * radial;
     let from = place - spine.at;
     let s0 = from.dot(v);
@@ -92,15 +119,16 @@ pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> ClosestPoints {
 
 /// Computes the closest points of two rims.
 pub(super) fn rims(a: Rim, b: Rim) -> ClosestPoints {
-    let place_a = |angle: f64| a.centre + a.radius * a.radial(angle);
-    let gap = |angle: f64| {
+    let radials = a.radials();
+    let place_a = |angle: Angle| a.centre + a.radius * angle.radial(radials);
+    let gap = |angle: Angle| {
         let place = place_a(angle);
         (b.centre + b.radius * b.towards(place) - place).length()
     };
     // The derivatives of half the squared distance to the closest point of the other rim.
     let angle = lowest(gap, |angle| {
         let place = place_a(angle);
-        let (ra, rb) = (a.radial(angle), b.towards(place));
+        let (ra, rb) = (angle.radial(radials), b.towards(place));
         let d = b.centre + b.radius * rb - place;
         let (ta, tb) = (a.radius * a.axis.cross(ra), b.radius * b.axis.cross(rb));
         let own = ta.length_squared() + a.radius * d.dot(ra);
@@ -108,7 +136,7 @@ pub(super) fn rims(a: Rim, b: Rim) -> ClosestPoints {
         let both = ta.dot(tb);
         [-d.dot(ta), own - both * both / other]
     });
-    let (ra, rb) = (a.radial(angle), b.towards(place_a(angle)));
+    let (ra, rb) = (angle.radial(radials), b.towards(place_a(angle)));
     let places = [a.centre + a.radius * ra, b.centre + b.radius * rb];
     crossing(places[0], a.axis.cross(ra), a.axis + ra, places[1], b.axis.cross(rb), b.axis + rb, 0.0)
 }
@@ -138,25 +166,23 @@ fn crossing(
 /// second derivative.
 ///
 /// The search is Newton's method within an interval. A step that would leave the interval is replaced by a halving.
-fn lowest(value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 2]) -> f64 {
-    let apart = TAU / f64::from(START_ANGLES);
-    let mut best = (f64::INFINITY, 0.0);
-    for step in 0..START_ANGLES {
-        let angle = apart * f64::from(step);
+fn lowest(value: impl Fn(Angle) -> f64, derivatives: impl Fn(Angle) -> [f64; 2]) -> Angle {
+    let mut best = (f64::INFINITY, STARTS[0]);
+    for &angle in STARTS.iter() {
         let here = value(angle);
         if here < best.0 {
             best = (here, angle);
         }
     }
     let mut angle = best.1;
-    let (mut low, mut high) = (angle - apart, angle + apart);
+    let (mut low, mut high) = (angle.radians - APART, angle.radians + APART);
     // The coarse search takes the ends of an edge into account, but the derivatives do not. The minimum may therefore lie outside of the
     // interval.
     for _ in 0..START_ANGLES {
-        if derivatives(low)[0] > 0.0 {
-            low -= apart;
-        } else if derivatives(high)[0] < 0.0 {
-            high += apart;
+        if derivatives(Angle::of(low))[0] > 0.0 {
+            low -= APART;
+        } else if derivatives(Angle::of(high))[0] < 0.0 {
+            high += APART;
         } else {
             break;
         }
@@ -164,15 +190,16 @@ fn lowest(value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 2]) -> 
     for _ in 0..MAX_STEPS {
         let [first, second] = derivatives(angle);
         if first > 0.0 {
-            high = angle;
+            high = angle.radians;
         } else {
-            low = angle;
+            low = angle.radians;
         }
-        let next = angle - first / second;
+        let next = angle.radians - first / second;
         let next = if second > 0.0 && next >= low && next <= high { next } else { 0.5 * (low + high) };
-        let step = next - angle;
-        angle = next;
-        if step.abs() < 1e-16 || first == 0.0 {
+        let step = next - angle.radians;
+        angle = Angle::of(next);
+        // Newton's method can go to and fro between two numbers that are neighbors.
+        if step.abs() <= f64::EPSILON * next.abs().max(1.0) || first == 0.0 {
             break;
         }
     }
