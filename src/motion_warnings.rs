@@ -153,7 +153,7 @@ fn energy_added(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
         return None;
     }
     let totals = survey.contacts?;
-    let sources = if is_by_moreau(&scene.bodies, !scene.joints.is_empty()) {
+    let sources = if is_by_moreau(&scene.bodies) {
         // Moreau's scheme checks the sum of all impulses at each part of a step, but impacts can take what friction adds.
         vec![("friction", totals.rubbed)]
     } else {

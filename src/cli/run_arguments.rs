@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use jabuka::cache::Cache;
 use jabuka::output::OutputError;
 use jabuka::sandbox::Confinement;
-use jabuka::scene::{ContactLaw, Override, View, is_by_moreau};
+use jabuka::scene::{Override, View};
 use jabuka::simulate::{Moments, Recorded, Selection, SimulateError};
 use jabuka::{Run, Scene};
 
@@ -141,9 +141,7 @@ pub(super) fn simulated_to_breakdown<'a>(
 /// If the simulation of a scene is saved from time to time, Ctrl-C says so.
 fn announce_checkpoints(scene: &Scene, cache: &Cache) {
     // Only the engine for many bodies saves its state.
-    let is_saved = scene.simulation.contacts == Some(ContactLaw::TimeStepping)
-        && !is_by_moreau(&scene.bodies, !scene.joints.is_empty());
-    if is_saved && cache.folder().is_some() {
+    if scene.is_for_many_bodies() && cache.folder().is_some() {
         interrupt::announced();
     }
 }

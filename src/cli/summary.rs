@@ -128,7 +128,7 @@ fn contacts(totals: ContactTotals, law: ContactLaw, scheme: &str, scale: f64) ->
 
 /// Returns how time stepping solves the contacts of a scene, if it is not the engine for many bodies.
 fn scheme(scene: &Scene) -> &'static str {
-    if is_by_moreau(&scene.bodies, !scene.joints.is_empty()) { "by Moreau's scheme; " } else { "" }
+    if is_by_moreau(&scene.bodies) { "by Moreau's scheme; " } else { "" }
 }
 
 /// Returns the line with the worst residual of the laws that no contact can break. Empty if there are none.

@@ -7,7 +7,7 @@ use super::ExportError;
 use super::format::{Contents, Format};
 use super::table::Table;
 use crate::physics::BodyId;
-use crate::scene::{ContactLaw, JointMeasure, JointState, Scene};
+use crate::scene::{JointMeasure, JointState, Scene};
 use crate::simulate::{Recorded, Selection};
 
 /// A table of the forces and torques of joints.
@@ -19,9 +19,9 @@ impl Format for Joints {
     }
 
     fn lack(&self, scene: &Scene) -> Option<Cow<'static, str>> {
-        if scene.simulation.contacts == Some(ContactLaw::TimeStepping) {
+        if scene.is_for_many_bodies() {
             return Some(
-                "time stepping does not know the forces of joints: `simulation.contacts = \"event-driven\"` does"
+                "time stepping of these bodies does not know the forces of joints: `simulation.contacts = \"event-driven\"` does"
                     .into(),
             );
         }

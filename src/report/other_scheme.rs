@@ -231,7 +231,7 @@ fn under(scene: &Scene, law: ContactLaw, measured: &ComparedBodies) -> Result<Sc
 }
 
 /// The largest number of moving bodies that is simulated with event-driven contacts. Impacts of more bodies at once take long.
-const BODIES_IN_EVENTS: usize = 24;
+const BODIES_IN_EVENTS: usize = 100;
 
 /// The largest product of moving bodies and timesteps that is simulated with event-driven contacts: a few seconds.
 const WORK_IN_EVENTS: f64 = 3e4;
@@ -248,7 +248,7 @@ fn refused(scene: &Scene, law: ContactLaw) -> Option<&'static str> {
     if !cfg!(feature = "time-stepping") {
         return Some("this build of jabuka has no time stepping");
     }
-    if is_by_moreau(&scene.bodies, !scene.joints.is_empty()) {
+    if is_by_moreau(&scene.bodies) {
         return None;
     }
     let rolls =

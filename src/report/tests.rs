@@ -169,7 +169,7 @@ fn a_momentum_that_the_forces_do_not_conserve_drifts() {
     assert!(drift > 1e-9 && drift < 0.1, "{drift}");
 }
 
-/// A ball hits two others that touch, all equal and elastic. The last one leaves with the whole velocity, and the others rest. Eighteen more
+/// A ball hits two others that touch, all equal and elastic. The last one leaves with the whole velocity, and the others rest. Fifty-eight more
 /// balls lie far away, two of them on a rod, so that there are too many for Moreau's scheme.
 #[cfg(feature = "time-stepping")]
 fn three_balls(contacts: &str) -> Scene {
@@ -178,7 +178,7 @@ fn three_balls(contacts: &str) -> Scene {
         "simulation = {{ duration = 1, frame_rate = 50, contacts = '{contacts}' }}\nenvironment.ground = false\n\
          [body.a]\n{ball} = [-0.5, 0, 0]\nvelocity = [1, 0, 0]\n\
          [body.b]\n{ball} = [0, 0, 0]\n[body.c]\n{ball} = [0.2, 0, 0]\n\
-         [body.far]\nrepeat = 18\n{ball} = ['i', 5, 0]\n\
+         [body.far]\nrepeat = 58\n{ball} = ['0.3*i', 5, 0]\n\
          [joint.far.rod]\nbetween = ['far[0]', 'far[1]']\n"
     ))
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::Body;
+use super::{Body, Scene};
 use crate::physics::Surface;
 
 /// The method that detects contacts and keeps bodies from passing through each other.
@@ -40,17 +40,23 @@ impl ContactLaw {
     }
 }
 
-/// The largest numbers of moving bodies that Moreau's scheme advances, without joints and with joints. Its time for a step grows faster than
-/// that of the engine for many bodies. Scenes of these sizes take some seconds, which is three to ten times as long.
-const MOST_WITHOUT_JOINTS: usize = 60;
-const MOST_WITH_JOINTS: usize = 20;
+/// The largest number of moving bodies that Moreau's scheme advances. Its time for a step grows faster than that of the engine for many
+/// bodies. Scenes of this size take some seconds, which is three to fifteen times as long.
+const MAX_BODIES_BY_MOREAU: usize = 60;
 
 /// Returns true if time stepping advances these bodies by Moreau's scheme, with exact joints: forces move only few of them, and none that
 /// collides is a torus, for which no distance is computed. The engine for many bodies advances all others.
-pub fn is_by_moreau(bodies: &[Body], has_joints: bool) -> bool {
+pub fn is_by_moreau(bodies: &[Body]) -> bool {
     let moving = bodies.iter().filter(|body| !body.start.fixed && body.motion.is_none());
-    moving.count() <= if has_joints { MOST_WITH_JOINTS } else { MOST_WITHOUT_JOINTS }
+    moving.count() <= MAX_BODIES_BY_MOREAU
         && !bodies.iter().any(|body| body.collider.is_some() && body.shape.has_torus())
+}
+
+impl Scene {
+    /// Returns true if the engine for many bodies computes the contacts of the scene.
+    pub fn is_for_many_bodies(&self) -> bool {
+        self.simulation.contacts == Some(ContactLaw::TimeStepping) && !is_by_moreau(&self.bodies)
+    }
 }
 
 /// The contact properties of a body.

@@ -16,7 +16,7 @@ use crate::physics::{
     Accuracy, BodyId, ContactPolicy, Contacts, Dynamics, Force, PairCounter, RigidBody, Shape,
     UniformGravity, World,
 };
-use crate::scene::{Body, BodyMeasure, ContactLaw, Scene, is_by_moreau};
+use crate::scene::{Body, BodyMeasure, ContactLaw, Scene};
 
 /// Builds the dynamics that a scene asks for: a plain world, a world that an adaptive method advances, or, for many bodies in contact, the
 /// time-stepping engine.
@@ -40,9 +40,7 @@ pub(super) fn dynamics(scene: &Scene, pair_counter: &PairCounter) -> Box<dyn Dyn
 
 /// Returns true if the engine for many bodies simulates a scene.
 fn is_for_many_bodies(scene: &Scene) -> bool {
-    cfg!(feature = "time-stepping")
-        && scene.simulation.contacts == Some(ContactLaw::TimeStepping)
-        && !is_by_moreau(&scene.bodies, !scene.joints.is_empty())
+    cfg!(feature = "time-stepping") && scene.is_for_many_bodies()
 }
 
 /// Returns true if a run lists its contacts. The engine for many bodies lists them only if the scene shows contact forces, since there are

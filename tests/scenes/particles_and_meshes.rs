@@ -132,11 +132,13 @@ fn a_ball_between_two_plates_becomes_faster() {
     }
 }
 
-/// Checks that exporting joint forces of time-stepping is an error, as they are unknown there; a table of zeros would be misleading.
+/// Checks that exporting joint forces of time stepping of many bodies is an error, as they are unknown there; a table of zeros would be
+/// misleading.
 #[test]
 fn no_table_has_forces_of_joints_that_time_stepping_does_not_know() {
     let text = "simulation = { duration = 0.1, contacts = 'time-stepping' }
         [body.a]\nshape.sphere.radius = 0.1\nlocation = [0, 1, 0]
+        [body.others]\nshape.sphere.radius = 0.1\nlocation = ['i', 1, 3]\nrepeat = 60
         [joint.j.ball]\nbetween = [[0, 1, 0], 'a']\n";
     let place = Place::new(&[("scene.toml", text)]);
     let words = ["export", "scene.toml", "--joints", "-o", "j.csv"];
@@ -144,7 +146,7 @@ fn no_table_has_forces_of_joints_that_time_stepping_does_not_know() {
     assert_eq!(output.status.code(), Some(1), "the arguments are right, the scene is not");
     assert!(!stderr(&output).contains("--help"), "{}", stderr(&output));
     assert!(
-        stderr(&output).contains("time stepping does not know the forces of joints"),
+        stderr(&output).contains("time stepping of these bodies does not know the forces of joints"),
         "{}",
         stderr(&output)
     );

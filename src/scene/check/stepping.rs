@@ -18,12 +18,9 @@ use crate::scene::{Body, ContactLaw, Joint, SimulationSettings, is_by_moreau, th
 /// The smallest restitution for which a warning says that rebounds lose height.
 const MIN_RESTITUTION_TO_WARN: f64 = 0.9;
 
-/// The help text that suggests event-driven contacts.
-const OTHER_SCHEME_HELP: &str = "the other scheme can: `simulation.contacts = \"event-driven\"`";
-
 /// The help text that suggests event-driven contacts, or time stepping of few bodies.
-const FEWER_BODIES_HELP: &str = "the other scheme can: `simulation.contacts = \"event-driven\"`; so can time stepping of at most sixty moving bodies, \
-                            or twenty where there are joints, and no torus";
+pub(super) const FEWER_BODIES_HELP: &str = "the other scheme can: `simulation.contacts = \"event-driven\"`; so can time stepping of at most sixty moving bodies \
+                            and no torus";
 
 /// Chooses a timestep that suits the thinnest colliding body, if the scene does not give `step`.
 pub(super) fn choose_step(
@@ -50,7 +47,7 @@ pub(super) fn check(
     context: &mut Context<'_>,
 ) {
     let table = root.table(&scene::SIMULATION);
-    let is_by_moreau = is_by_moreau(bodies, !root.named(&scene::JOINT).is_empty());
+    let is_by_moreau = is_by_moreau(bodies);
     if !cfg!(feature = "time-stepping") && !is_by_moreau {
         let error = Diagnostic::error(Code::BadContacts, "this build of jabuka has no time stepping");
         let help = "build jabuka with its feature `time-stepping`, or take the other scheme: `contacts = \"event-driven\"`";
@@ -121,8 +118,7 @@ pub(super) fn check_joints(
     joints: &[Joint],
     context: &mut Context<'_>,
 ) {
-    let is_by_moreau = is_by_moreau(bodies, !joints.is_empty());
-    if simulation.contacts != Some(ContactLaw::TimeStepping) {
+    if simulation.contacts != Some(ContactLaw::TimeStepping) || is_by_moreau(bodies) {
         return;
     }
     let by_name: HashMap<&str, &Joint> = joints.iter().map(|joint| (&*joint.name, joint)).collect();
@@ -133,22 +129,21 @@ pub(super) fn check_joints(
             let error = Diagnostic::error(Code::BadContacts, what).at(span, label.to_owned());
             context.diagnostics.push(error.help(help.to_owned()));
         };
-        if let Some(kind) = joint.kind.unknown_to_rapier().filter(|_| !is_by_moreau) {
-            wrong(format!("time stepping has no {kind}, as `{name}` is one"), span, "", OTHER_SCHEME_HELP);
+        if let Some(kind) = joint.kind.unknown_to_rapier() {
+            wrong(format!("time stepping has no {kind}, as `{name}` is one"), span, "", FEWER_BODIES_HELP);
         }
         let kind = super::joint::kind(&view);
         if matches!(joint.kind.motor(), Some(Motor::Value(_))) {
             let place = kind.as_ref().and_then(|kind| kind.key_span(&hinge::MOTOR)).unwrap_or(span);
-            let help = "give the motor a `stiffness` and a `damping`, or take the other scheme: \
-                        `simulation.contacts = \"event-driven\"`";
-            wrong(format!("the motor of `{name}` cannot keep its value exactly"), place, "", help);
+            let help = format!("give the motor a `stiffness` and a `damping`; {FEWER_BODIES_HELP}");
+            wrong(format!("the motor of `{name}` cannot keep its value exactly"), place, "", &help);
         }
         let arrows = kind.map(|kind| kind.table(&hinge::ARROWS));
         for key in [&joint_arrows::FORCE.spec, &joint_arrows::TORQUE.spec] {
             let place = arrows.as_ref().and_then(|arrows| arrows.key_span(key));
             if let Some(place) = place.filter(|_| joint.arrows.iter().any(Option::is_some)) {
                 let what = format!("time stepping does not know the {key} of the joint `{name}`");
-                wrong(what, place, "", OTHER_SCHEME_HELP);
+                wrong(what, place, "", FEWER_BODIES_HELP);
             }
         }
         context.once(before, name, span);

@@ -108,8 +108,8 @@ joints are described in the same way for both schemes. Choose by scene:
 | torus | refused | a ring of capsules |
 | rolling friction | yes | refused |
 
-- **Few bodies**: if forces move at most sixty bodies, or at most twenty where there are joints, and none that collides is a torus, Moreau's scheme computes
-  their contacts. Joints are exact then, bodies do not sink into each other, rebounds keep their height, and gears, pulleys and rolling friction work. What a step can change sets the accuracy.
+- **Few bodies**: if forces move at most sixty bodies, and none that collides is a torus, Moreau's scheme computes their contacts.
+  Joints are exact then, bodies do not sink into each other, rebounds keep their height, and gears, pulleys, rolling friction, exact motors and the forces of joints are there. What a step can change sets the accuracy.
 - **Energy**: the work of contacts, joints and motors is booked, and is not part of the drift. So the drift says nothing about joints that give
   way or contacts that take too much: the summary names the energy that each of them took. The drift is relative to the largest kinetic
   energy, or to the energy that contacts took, or to the work of motions and motors, if that is more: bodies that only settle hardly move.

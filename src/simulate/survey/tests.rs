@@ -183,7 +183,7 @@ fn a_joint_that_gives_way_is_found() {
             location = [1, 0, 0]
             mass = 1000
             [body.far]
-            repeat = 19
+            repeat = 59
             location = ['i', 20, 9]
             collides = true
             [joint.upper.rod]

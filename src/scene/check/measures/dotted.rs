@@ -4,8 +4,9 @@ use std::ops::Range;
 
 use super::{Reader, words};
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::scene::check::stepping::FEWER_BODIES_HELP;
 use crate::scene::grammar::scene::{scene, simulation};
-use crate::scene::{ContactLaw, JointMeasure, Measure};
+use crate::scene::{ContactLaw, JointMeasure, Measure, is_by_moreau};
 
 impl Reader<'_, '_, '_> {
     /// Replaces each dot in names such as `ball.speed` by a letter or an underscore, because names in formulas have no dots. The
@@ -126,10 +127,11 @@ impl Reader<'_, '_, '_> {
                 && !is_servo
                 && self.root.table(&scene::SIMULATION).get(&simulation::CONTACTS)
                     == Some(ContactLaw::TimeStepping.name())
+                && !is_by_moreau(self.things.bodies)
             {
-                let message = format!("time stepping does not know the `{measure}` of a joint");
-                let help = "the other scheme does: `simulation.contacts = \"event-driven\"`";
-                let error = Diagnostic::error(Code::BadContacts, message).help(help);
+                let message =
+                    format!("time stepping of these bodies does not know the `{measure}` of a joint");
+                let error = Diagnostic::error(Code::BadContacts, message).help(FEWER_BODIES_HELP);
                 let behind = begin + name.len() + 1;
                 self.report(error, behind..behind + measure.len(), "");
                 return None;
