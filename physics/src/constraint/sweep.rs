@@ -33,8 +33,7 @@ const PATIENT_SWEEPS: usize = 20 * MAX_SWEEPS;
 const EXCUSED_WORK: f64 = 10.0;
 
 /// An extrapolation leaves rounding errors of this fraction of its size. If they exceed the tolerance, the accelerated sweeps have lost
-/// their way: where bodies are wedged between contacts and joints, impulses can grow together without changing any rate, and the
-/// acceleration makes them grow far.
+/// their way.
 const EXTRAPOLATION_ERROR: f64 = 1e-12;
 
 /// How sweeps over contacts end.
@@ -46,12 +45,14 @@ pub(super) struct Stopping {
     most: usize,
     /// True if the impulses of several sweeps are extrapolated (Anderson acceleration).
     pub(super) is_fast: bool,
+    /// The largest change of a rate that an impulse or an extrapolation may cause alone.
+    bound: f64,
 }
 
 impl Stopping {
     /// Accelerated sweeps, which converge sooner.
     pub(super) const fn fast(tolerance: f64) -> Stopping {
-        Stopping { tolerance, most: MAX_SWEEPS, is_fast: true }
+        Stopping { tolerance, most: MAX_SWEEPS, is_fast: true, bound: f64::INFINITY }
     }
 
     /// The same with another largest number of sweeps.
@@ -61,12 +62,21 @@ impl Stopping {
 
     /// Many sweeps without acceleration. From zero impulses, none of them adds energy.
     pub(super) const fn patient(tolerance: f64) -> Stopping {
-        Stopping { tolerance, most: PATIENT_SWEEPS, is_fast: false }
+        Stopping { tolerance, most: PATIENT_SWEEPS, is_fast: false, bound: f64::INFINITY }
     }
 
-    /// Returns the sweeps that replace accelerated ones whose largest extrapolation changed a rate by `farthest`, if that is too far.
-    pub(super) fn instead(self, farthest: f64) -> Option<Stopping> {
-        (EXTRAPOLATION_ERROR * farthest > self.tolerance).then_some(Stopping::patient(self.tolerance))
+    /// The same, unless an impulse or an extrapolation would change a rate, alone, by more than `bound`, m/s. Then patient sweeps from zero
+    /// replace these.
+    ///
+    /// Where bodies are wedged between contacts and joints, impulses can grow together without changing any rate, and the acceleration makes
+    /// them grow far, from substep to substep. Their errors then change the energy.
+    pub(super) fn within(self, bound: f64) -> Stopping {
+        Stopping { bound, ..self }
+    }
+
+    /// Returns true if sweeps whose largest extrapolation would change a rate by `farthest` have to be repeated without acceleration.
+    fn went_too_far(self, farthest: f64) -> bool {
+        self.is_fast && EXTRAPOLATION_ERROR * farthest > self.tolerance
     }
 
     /// Returns true if sweep number `sweep`, counted from 1, is the last, after a change of a rate by `change`.
@@ -251,11 +261,11 @@ impl Solver {
         }
         // Rates need no accuracy far below their change by forces in a substep.
         let part = if purpose == Purpose::Impact { IMPACT_SWEEP_TOLERANCE } else { FORCE_SWEEP_TOLERANCE };
-        let tolerance = part * fastest.max(self.forced);
+        let largest = fastest.max(self.forced);
+        let tolerance = part * largest;
         let members = self.members.clone();
         let mut goals = goals.to_vec();
-        self.sweep_warmly(&goals, purpose, tolerance);
-        let largest = fastest.max(self.forced);
+        self.sweep_warmly(&goals, purpose, (largest, tolerance));
         self.refine(&goals, purpose, (largest, tolerance), &members);
         let moved: Vec<f64> = self.rows.iter().map(|row| row.rate).collect();
         let now = self.rates_now();
@@ -265,7 +275,7 @@ impl Solver {
                 *goal = if *law == Law::Inequality { goal.min(0.0) } else { *goal };
             }
             self.members.clone_from(&members);
-            self.sweep_warmly(&goals, purpose, tolerance);
+            self.sweep_warmly(&goals, purpose, (largest, tolerance));
             self.refine(&goals, purpose, (largest, tolerance), &members);
         }
         // In the second phase of an impact, contacts give back a part of the energy that the first phase has taken.
@@ -280,13 +290,16 @@ impl Solver {
         }
     }
 
-    /// Sweeps with acceleration. Forces start from those of the last substep.
-    fn sweep_warmly(&mut self, goals: &[f64], purpose: Purpose, tolerance: f64) {
+    /// Sweeps with acceleration. Forces start from those of the last substep. `largest` is the largest rate, m/s.
+    fn sweep_warmly(&mut self, goals: &[f64], purpose: Purpose, (largest, tolerance): (f64, f64)) {
         self.unknown.fill(0.0);
         if let Purpose::Forces(time) = purpose {
             self.start_warm(time);
         }
-        self.sweep_all(goals, purpose, Stopping::fast(tolerance));
+        // At the foot of a stack, an impulse changes its rate by as many times the largest rate as there are bodies above it.
+        #[allow(clippy::cast_precision_loss, reason = "there are fewer rows")]
+        let bound = largest * self.rows.len() as f64;
+        self.sweep_all(goals, purpose, Stopping::fast(tolerance).within(bound));
     }
 
     /// Repeats sweeps over all contacts, limits and motors.
@@ -329,12 +342,24 @@ impl Solver {
                 farthest = farthest.max(further.abs() * self.columns.weights()[row] / self.unit(row));
             }
         }
-        if let Some(patient) = stopping.instead(farthest) {
-            (self.unknown, self.members) = (first, members);
-            let mut number = 1;
-            while !patient.ends(number, sweep(self)) {
-                number += 1;
+        let alone =
+            |(row, impulse): (usize, &f64)| impulse.abs() * self.columns.weights()[row] / self.unit(row);
+        let largest = self.unknown.iter().enumerate().map(alone).fold(farthest, f64::max);
+        if largest > stopping.bound {
+            self.members = members;
+            for (row, impulse) in first.into_iter().enumerate() {
+                self.columns.apply(row, -impulse, &mut self.members);
             }
+            self.unknown.fill(0.0);
+        } else if stopping.went_too_far(farthest) {
+            (self.unknown, self.members) = (first, members);
+        } else {
+            return;
+        }
+        let patient = Stopping::patient(stopping.tolerance);
+        let mut number = 1;
+        while !patient.ends(number, sweep(self)) {
+            number += 1;
         }
     }
 
