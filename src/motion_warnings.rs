@@ -4,7 +4,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::physics::LawResidual;
 use crate::picture::number::rounded;
 use crate::scene::{ContactLaw, Scene, is_by_moreau, thinnest};
-use crate::simulate::{Corrected, Crossing, Overlap, StretchedJoint, Survey};
+use crate::simulate::{ContactTotals, Corrected, Crossing, Overlap, StretchedJoint, Survey};
 
 /// Returns all warnings about the motion in a simulated scene, such as bodies that pass through planes or each other, and an energy that drifts.
 pub fn all(scene: &Scene, survey: &Survey) -> Vec<Diagnostic> {
@@ -153,13 +153,7 @@ fn energy_added(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
         return None;
     }
     let totals = survey.contacts?;
-    let sources = if is_by_moreau(&scene.bodies) {
-        // Moreau's scheme checks the sum of all impulses at each part of a step, but impacts can take what friction adds.
-        vec![("friction", totals.rubbed)]
-    } else {
-        vec![("contacts", totals.lost + totals.rubbed), ("joints and limits", totals.taken_by_joints)]
-    };
-    let (source, taken) = sources.into_iter().min_by(|one, two| one.1.total_cmp(&two.1))?;
+    let (source, taken) = largest_gain(&totals, is_by_moreau(&scene.bodies))?;
     let adds = if source == "friction" { "adds" } else { "add" };
     let message = format!(
         "{source} {adds} {} J to the energy of the bodies, but can only take energy",
@@ -167,6 +161,17 @@ fn energy_added(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
     );
     let is_much = -taken > ALLOWED * survey.drift_energy.max(fall_in_a_step(scene, survey.timestep));
     is_much.then(|| Diagnostic::warning(Code::EnergyAdded, message).help("take a smaller `simulation.step`"))
+}
+
+/// Returns what takes the least energy from the bodies, and that energy, J: negative if it adds energy.
+fn largest_gain(totals: &ContactTotals, is_by_moreau: bool) -> Option<(&'static str, f64)> {
+    let sources = if is_by_moreau {
+        // Moreau's scheme checks the sum of all impulses at each part of a step, but impacts can take what friction adds, and the reverse.
+        vec![("friction", totals.rubbed), ("contacts", totals.lost)]
+    } else {
+        vec![("contacts", totals.lost + totals.rubbed), ("joints and limits", totals.taken_by_joints)]
+    };
+    sources.into_iter().min_by(|one, two| one.1.total_cmp(&two.1))
 }
 
 /// Returns the kinetic energy that gravity alone would give all bodies in a timestep, J. Contacts that hold bodies at rest are exact to a
@@ -182,4 +187,18 @@ fn overlap(overlap: &Overlap) -> Diagnostic {
     let [one, two] = &overlap.bodies;
     let message = format!("`{one}` and `{two}` overlap at t = {} s", overlap.time);
     Diagnostic::warning(Code::Overlap, message).help(format!("they pass through each other; {STOPS}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What friction adds cannot hide behind what impacts take, nor the reverse, if both are exact but for the errors of impulses.
+    #[test]
+    fn neither_friction_nor_impacts_may_add_energy() {
+        let totals = |lost, rubbed| ContactTotals { lost, rubbed, ..ContactTotals::default() };
+        assert_eq!(largest_gain(&totals(178.0, -157.0), true), Some(("friction", -157.0)));
+        assert_eq!(largest_gain(&totals(-606.0, 626.0), true), Some(("contacts", -606.0)));
+        assert_eq!(largest_gain(&totals(178.0, -157.0), false), Some(("joints and limits", 0.0)));
+    }
 }

@@ -1,5 +1,5 @@
-//! Impulses of all contacts, limits and motors by projected Gauss–Seidel sweeps. The joints hold exactly throughout. Without joints,
-//! `pile.rs` finds the impulses sooner.
+//! Impulses of all contacts, limits and motors by projected Gauss–Seidel sweeps. The joints hold exactly throughout. For bodies
+//! that have nothing to do with joints, `pile.rs` finds the impulses sooner.
 //!
 //! Source: M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999) 235.
 

@@ -30,7 +30,7 @@ const MAX_FURTHER_STEPS: u32 = 16;
 #[derive(Clone, Default)]
 pub(crate) struct Crowd {
     bodies: BTreeSet<usize>,
-    /// Finds the impulses if there are joints. `pile` finds them otherwise.
+    /// Finds the impulses of mechanisms and of all that touches them. `pile` finds the others.
     solver: Solver,
     pile: Pile,
     /// Closes the joints after a substep, without contacts.
