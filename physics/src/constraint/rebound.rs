@@ -1,7 +1,9 @@
 //! Impacts in Moreau's scheme: all impacts within one substep are solved together.
 //!
-//! Poisson's law has two phases. In the first phase, bodies stop each other. In the second, each contact repeats its impulse, times its
-//! coefficient of restitution. For two bodies, this equals Newton's law. For many bodies it never gains energy, while Newton's law can.
+//! Two bodies that touch no others rebound by Newton's law: each point leaves with its approach speed, times the coefficient of restitution.
+//! For many bodies, this law can gain energy. Poisson's law never does. It has two phases. In the first phase, bodies stop each other. In the
+//! second, each contact repeats its impulse, times its coefficient of restitution. Without friction and joints, this is Newton's law for two
+//! bodies.
 //! Source: C. Glocker & F. Pfeiffer, *Multiple impacts with friction in rigid multibody systems*, Nonlinear Dynamics 7 (1995) 471.
 //!
 //! A contact that closes within the substep gets its impulse at the start of the substep, which is too early. The positions of its bodies
@@ -47,6 +49,12 @@ struct Rebound {
     fall: f64,
 }
 
+/// Returns the rate of a contact after the impulse of an impact by Newton's law, m/s. The impulse acts at the start of the substep, with the
+/// rate `before`. The loads change the rate by `fall` until the bodies touch.
+pub(super) fn newtons_goal(before: f64, fall: f64, restitution: f64) -> f64 {
+    -fall - restitution * (before + fall)
+}
+
 /// Combines the impacts at all points of two bodies into one, at the center of their normal impulses.
 pub(super) fn of_pairs(points: Vec<Impact>) -> Vec<Impact> {
     let mut pairs: BTreeMap<[usize; 2], Vec<Impact>> = BTreeMap::new();
@@ -84,27 +92,16 @@ impl Solver {
             return Struck::default();
         }
         let rebounds = self.rebounds((model, loads), (&before, goals), part);
-        // The loads act until the bodies touch. What they add to the approach is reversed with it.
-        for rebound in &rebounds {
-            goals[rebound.row] = -rebound.fall;
-        }
         let velocities: BTreeMap<usize, DVec3> =
             self.rebounding(&rebounds, model).map(|body| (body, state.velocity[body])).collect();
-        self.push_all(model, goals, Purpose::Impact, state);
+        let alone = self.rebound_alone(&rebounds, &before, (model, goals), state);
+        let impulses = alone.unwrap_or_else(|| self.rebound_in_phases(&rebounds, (model, goals), state));
         if rebounds.is_empty() {
             return Struck::default();
         }
-        let mut impulses = self.unknown.clone();
-        self.least = vec![0.0; impulses.len()];
-        for rebound in &rebounds {
-            self.least[rebound.row] = rebound.restitution * impulses[rebound.row];
-        }
-        self.push_all(model, goals, Purpose::Impact, state);
-        self.least.clear();
         for rebound in &rebounds {
             goals[rebound.row] = 0.0;
         }
-        impulses.iter_mut().zip(&self.unknown).for_each(|(sum, more)| *sum += more);
         let early = self.early(&rebounds, &impulses, (&velocities, state));
         let after = self.rates_of(model, state);
         let impact = |rebound| self.impact(rebound, time, (&impulses, &velocities), (&before, &after));
@@ -115,6 +112,62 @@ impl Solver {
         impacts.sort_by(|a, b| a.time.total_cmp(&b.time));
         let fallen = rebounds.iter().map(|rebound| impulses[rebound.row] * rebound.fall).sum();
         Struck { impacts, early, fallen }
+    }
+
+    /// Applies the impulses of an impact by Newton's law, if the only contacts are those of two bodies. `before` are the rates of all rows.
+    /// Returns the impulses of all rows. `None` if there are other contacts, or if friction would add energy; then Poisson's law applies.
+    fn rebound_alone(
+        &mut self,
+        rebounds: &[Rebound],
+        before: &[f64],
+        (model, goals): (&Model, &mut [f64]),
+        state: &mut State,
+    ) -> Option<Vec<f64>> {
+        let [first, others @ ..] = &self.contacts[..] else { return None };
+        if rebounds.is_empty() || others.iter().any(|contact| contact.bodies != first.bodies) {
+            return None;
+        }
+        let unstruck = state.clone();
+        for rebound in rebounds {
+            goals[rebound.row] = newtons_goal(before[rebound.row], rebound.fall, rebound.restitution);
+        }
+        self.push_all(model, goals, Purpose::Impact, state);
+        let impulses = self.unknown.clone();
+        let after = self.rates_of(model, state);
+        let rates = before.iter().zip(&after).map(|(before, after)| 0.5 * (before + after));
+        let work: f64 = impulses.iter().zip(rates).map(|(impulse, rate)| impulse * rate).sum();
+        if work > 0.0 {
+            state.clone_from(&unstruck);
+            self.rates_of(model, state);
+            return None;
+        }
+        Some(impulses)
+    }
+
+    /// Applies the impulses of impacts by the two phases of Poisson's law. Returns the impulses of all rows.
+    fn rebound_in_phases(
+        &mut self,
+        rebounds: &[Rebound],
+        (model, goals): (&Model, &mut [f64]),
+        state: &mut State,
+    ) -> Vec<f64> {
+        // The loads act until the bodies touch. What they add to the approach is reversed with it.
+        for rebound in rebounds {
+            goals[rebound.row] = -rebound.fall;
+        }
+        self.push_all(model, goals, Purpose::Impact, state);
+        let mut impulses = self.unknown.clone();
+        if rebounds.is_empty() {
+            return impulses;
+        }
+        self.least = vec![0.0; impulses.len()];
+        for rebound in rebounds {
+            self.least[rebound.row] = rebound.restitution * impulses[rebound.row];
+        }
+        self.push_all(model, goals, Purpose::Impact, state);
+        self.least.clear();
+        impulses.iter_mut().zip(&self.unknown).for_each(|(sum, more)| *sum += more);
+        impulses
     }
 
     /// Records impacts without a rebound from now on, too.

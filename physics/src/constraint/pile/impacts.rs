@@ -1,13 +1,14 @@
-//! Impacts in a pile: all impacts within one substep are solved together, by Poisson's law. See `rebound.rs` for the law.
+//! Impacts in a pile: all impacts within one substep are solved together. See `rebound.rs` for the laws.
 
 use std::collections::BTreeMap;
 
 use glam::DVec3;
 
 use super::super::super::{Impact, Loads, Model, State};
-use super::super::rebound::{CLOSING_LEFT_TO_FORCES, Struck, of_pairs};
+use super::super::rebound::{CLOSING_LEFT_TO_FORCES, Struck, newtons_goal, of_pairs};
 use super::super::sweep::Purpose;
 use super::island::Limits;
+use super::point::Point;
 use super::{Island, Pile};
 
 /// A contact at which two bodies rebound in this substep.
@@ -87,6 +88,10 @@ impl Pile {
                 }
             }
         }
+        if self.rebounds_alone(island, &mut rebounds, limits) {
+            self.apply(island, Purpose::Impact, model, state);
+            return rebounds;
+        }
         self.find(island, Purpose::Impact, limits);
         self.apply(island, Purpose::Impact, model, state);
         if rebounds.is_empty() {
@@ -107,6 +112,30 @@ impl Pile {
             (point.least, point.goal.x) = (0.0, 0.0);
         }
         rebounds
+    }
+
+    /// Finds the impulses of the impact of two bodies that touch no others, by Newton's law. Returns false if the island is another, or if
+    /// friction would add energy; then Poisson's law applies.
+    fn rebounds_alone(&mut self, island: &Island, rebounds: &mut [Rebound], limits: Limits) -> bool {
+        let bodies = |point: &Point| self.contacts[point.contact].place.bodies;
+        let [first, others @ ..] = &self.points[island.points.clone()] else { return false };
+        if rebounds.is_empty() || others.iter().any(|point| bodies(point) != bodies(first)) {
+            return false;
+        }
+        for rebound in &*rebounds {
+            self.points[rebound.point].goal.x =
+                newtons_goal(rebound.before.x, rebound.fall, rebound.restitution);
+        }
+        self.find(island, Purpose::Impact, limits);
+        let work = |(point, impulse): (&Point, DVec3)| {
+            impulse.dot(0.5 * (point.free_rate(&self.bodies) + point.rate(&self.bodies)))
+        };
+        let takes_energy = self.pushed(island).map(work).sum::<f64>() <= 0.0;
+        for rebound in rebounds {
+            rebound.impulse = if takes_energy { self.impulse(rebound.point) } else { DVec3::ZERO };
+            self.points[rebound.point].goal.x = if takes_energy { 0.0 } else { -rebound.fall };
+        }
+        takes_energy
     }
 
     /// Returns the contacts of an island that close within the substep, and fast enough to rebound. A contact does not rebound if the loads
