@@ -163,7 +163,7 @@ fn energy_added(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
     is_much.then(|| Diagnostic::warning(Code::EnergyAdded, message).help("take a smaller `simulation.step`"))
 }
 
-/// Returns what takes the least energy from the bodies, and that energy, J: negative if it adds energy.
+/// Returns the name of what takes the least energy from the bodies, and the energy that it takes, J. It is negative if energy is added.
 fn largest_gain(totals: &ContactTotals, is_by_moreau: bool) -> Option<(&'static str, f64)> {
     let sources = if is_by_moreau {
         // Moreau's scheme checks the sum of all impulses at each part of a step, but impacts can take what friction adds, and the reverse.

@@ -54,7 +54,7 @@ fn a_spherical_picture_shows_all_directions_and_is_level() {
     let bodies = shining_ball("right", [5.0, 1.0, 2.0], 0.3, "#ff0000")
         + &shining_ball("behind", [2.0, 4.0, 7.0], 0.3, "#0000ff")
         + &shining_ball("ahead", [1.0, -2.0, -3.0], 0.3, "#00ff00");
-    // The camera looks ahead and down, and ahead and to the right.
+    // The first camera looks down, the second to the right.
     let [down, right] = [[1.0, -2.0, -3.0], [5.0, 1.0, 2.0]].map(|look_at: [f64; 3]| {
         let camera = "\n[camera]\nprojection = 'spherical'\nlocation = [1, 1, 2]\n";
         script(&format!("{bodies}{DARK}{camera}look_at = {look_at:?}\n"))

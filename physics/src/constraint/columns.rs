@@ -29,13 +29,13 @@ pub(super) struct UnitResponse {
 
 /// The number of rows of one constraint whose columns are computed together: those of a contact with friction. The joints' equations are
 /// read once for all of them.
-const LANES: usize = 3;
+const ROWS_TOGETHER: usize = 3;
 
 /// The velocity changes of one body under unit impulses along several rows.
 #[derive(Clone, Copy, Default)]
 struct Moved {
-    velocity: [DVec3; LANES],
-    angular_velocity: [DVec3; LANES],
+    velocity: [DVec3; ROWS_TOGETHER],
+    angular_velocity: [DVec3; ROWS_TOGETHER],
 }
 
 /// Working memory for columns. `moved` and `unknown` are zero between two constraints.
@@ -44,7 +44,7 @@ struct Work {
     /// One entry per member.
     moved: Vec<Moved>,
     /// One entry per row.
-    unknown: Vec<[f64; LANES]>,
+    unknown: Vec<[f64; ROWS_TOGETHER]>,
     /// The members that move, the mechanisms that the rows touch, and the rows of these mechanisms.
     members: Vec<usize>,
     mechanisms: Vec<usize>,
@@ -52,8 +52,8 @@ struct Work {
 }
 
 /// Computes the rates J v of a row from the velocity changes of its bodies.
-fn rates(directions: &[Direction], moved: &[Moved]) -> [f64; LANES] {
-    let mut sums = [0.0; LANES];
+fn rates(directions: &[Direction], moved: &[Moved]) -> [f64; ROWS_TOGETHER] {
+    let mut sums = [0.0; ROWS_TOGETHER];
     for direction in directions {
         let of = &moved[direction.member];
         let turns = direction.angular != DVec3::ZERO;
@@ -125,7 +125,8 @@ impl Solver {
                     row += 1;
                 } else if is_held {
                     let rest = &self.laws[row..place.row + place.rows];
-                    let free = rest.iter().take(LANES).take_while(|law| **law != Law::Equality).count();
+                    let free =
+                        rest.iter().take(ROWS_TOGETHER).take_while(|law| **law != Law::Equality).count();
                     self.push_held_columns(place, row..row + free, &mut columns, &mut work);
                     row += free;
                 } else {
@@ -143,7 +144,7 @@ impl Solver {
         place.bodies.iter().any(|member| structure.mechanism_of[*member].is_some())
     }
 
-    /// Appends the velocity changes under unit impulses along up to [`LANES`] rows of a constraint when joints are active. The reactions of
+    /// Appends the velocity changes under unit impulses along up to [`ROWS_TOGETHER`] rows of a constraint when joints are active. The reactions of
     /// the joints move other bodies of the mechanism as well. The column of a row along which the joints block all motion is empty.
     fn push_held_columns(
         &self,
@@ -155,7 +156,7 @@ impl Solver {
         let Some(structure) = &self.structure else { return };
         let Work { moved, unknown, members, mechanisms, rows } = work;
         moved.resize(self.members.len(), Moved::default());
-        unknown.resize(self.rows.len(), [0.0; LANES]);
+        unknown.resize(self.rows.len(), [0.0; ROWS_TOGETHER]);
         mechanisms.clear();
         mechanisms.extend(place.bodies.iter().filter_map(|member| structure.mechanism_of[*member]));
         mechanisms.sort_unstable();
@@ -169,7 +170,7 @@ impl Solver {
         members.dedup();
 
         let directions = |row: usize| &self.jacobian[structure.directions_of(row)];
-        let mut free = [0.0; LANES];
+        let mut free = [0.0; ROWS_TOGETHER];
         for (lane, row) in own.clone().enumerate() {
             for direction in directions(row) {
                 let member = &self.members[direction.member];
@@ -187,7 +188,7 @@ impl Solver {
         self.factor.solve_rows(unknown, rows);
         for &row in &*rows {
             let multipliers = std::mem::take(&mut unknown[row]);
-            if multipliers != [0.0; LANES] {
+            if multipliers != [0.0; ROWS_TOGETHER] {
                 for direction in directions(row) {
                     let member = &self.members[direction.member];
                     let moved = &mut moved[direction.member];

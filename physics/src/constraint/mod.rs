@@ -44,8 +44,8 @@
 //! # Impulses of many contacts
 //!
 //! Moreau's scheme (`contact/crowd/`) needs impulses at all contacts, limits and motors at once. Sweeps find them (`sweep.rs`). The contacts
-//! of bodies that touch no mechanism form a `Pile` (`pile.rs`): flat arrays of points and bodies, which sweeps pass through quickly, island by island.
-//! The sweeps start from the last forces (`last_forces.rs`), and Anderson acceleration speeds them up (`anderson.rs`). Towers, and heavy
+//! of bodies that touch no mechanism form a `Pile` (`pile.rs`): flat arrays of points and bodies, which sweeps pass through quickly, island
+//! by island. The sweeps start from the last forces (`last_forces.rs`), and Anderson acceleration speeds them up (`anderson.rs`). Towers, and heavy
 //! bodies on light ones, would need too many sweeps: where these leave an error, Newton's method solves an island as a whole (`refine.rs`,
 //! `newton.rs`). Bodies that approach stop, or rebound by Poisson's law (`rebound.rs`). Overlapping bodies are moved apart (`separate.rs`),
 //! and the accounts include the energy that this takes.

@@ -110,6 +110,8 @@ joints are described in the same way for both schemes. Choose by scene:
 
 - **Few bodies**: if forces move at most sixty bodies, and none that collides is a torus, Moreau's scheme computes their contacts.
   Joints are exact then, bodies do not sink into each other, rebounds keep their height, and gears, pulleys, rolling friction, exact motors and the forces of joints are there. What a step can change sets the accuracy.
+  Two bodies that touch no others rebound by the ratio of speeds that `restitution` gives. Where more bodies touch, each contact gives back
+  this part of its impulse, which is another speed where there is friction or a joint.
 - **Energy**: the work of contacts, joints and motors is booked, and is not part of the drift. So the drift says nothing about joints that give
   way or contacts that take too much: the summary names the energy that each of them took. The drift is relative to the largest kinetic
   energy, or to the energy that contacts took, or to the work of motions and motors, if that is more: bodies that only settle hardly move.

@@ -58,10 +58,10 @@ impl Angle {
 
 /// Equally spaced angles on a rim.
 static STARTS: LazyLock<[Angle; START_ANGLES]> =
-    LazyLock::new(|| std::array::from_fn(|step| Angle::of(APART * step as f64)));
+    LazyLock::new(|| std::array::from_fn(|step| Angle::of(START_SPACING * step as f64)));
 
 /// The distance of two neighboring start angles, rad.
-const APART: f64 = TAU / START_ANGLES as f64;
+const START_SPACING: f64 = TAU / START_ANGLES as f64;
 
 /// Computes the closest points of a rim and an envelope of balls (an edge, a round side, or a ball).
 pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> ClosestPoints {
@@ -175,14 +175,14 @@ fn lowest(value: impl Fn(Angle) -> f64, derivatives: impl Fn(Angle) -> [f64; 2])
         }
     }
     let mut angle = best.1;
-    let (mut low, mut high) = (angle.radians - APART, angle.radians + APART);
+    let (mut low, mut high) = (angle.radians - START_SPACING, angle.radians + START_SPACING);
     // The coarse search takes the ends of an edge into account, but the derivatives do not. The minimum may therefore lie outside of the
     // interval.
     for _ in 0..START_ANGLES {
         if derivatives(Angle::of(low))[0] > 0.0 {
-            low -= APART;
+            low -= START_SPACING;
         } else if derivatives(Angle::of(high))[0] < 0.0 {
-            high += APART;
+            high += START_SPACING;
         } else {
             break;
         }
