@@ -16,13 +16,13 @@
 //! [`Run`] takes a scene through these stages. [`overwrite`] decides which files a command may replace. [`diagnostic`] represents the
 //! errors and warnings of all stages, and [`explain`] explains their codes. [`catalog`] lists the names that scenes can use, and
 //! [`starter`] writes an example scene. For programs other than POV-Ray, [`surface`] has the triangles of shapes and simple materials, and
-//! [`export`] writes tables and models. [`preview`] shows a scene in the browser while the user edits it. [`sandbox`] confines the
-//! programs that jabuka starts.
+//! [`export`] writes tables and models. [`page`] makes what a page in the browser shows of a scene, and [`preview`] serves that page while
+//! the user edits the scene. [`sandbox`] confines the programs that jabuka starts.
 //!
 //! # Features
 //!
 //! All features are on by default. In your own project, `default-features = false` leaves a library that reads scenes, simulates them, and
-//! makes scripts, tables and models. It has about 50 dependencies, and also works in a browser (`wasm32-unknown-unknown`).
+//! makes scripts, tables and models. It has about 50 dependencies, and also works in a browser (`wasm32-unknown-unknown`, `wasm32-wasip1`).
 //!
 //! | feature | what it adds |
 //! | --- | --- |
@@ -82,6 +82,7 @@ mod not_drawn;
 pub mod output;
 #[cfg(feature = "render")]
 pub mod overwrite;
+pub mod page;
 pub mod picture;
 #[cfg(feature = "preview")]
 pub mod preview;

@@ -2,38 +2,21 @@
 //!
 //! | what | where |
 //! | --- | --- |
-//! | the last run without errors, and the current errors of the scene | `session` |
-//! | the detection of changes in the scene's files | `watch` |
-//! | a run that is simulated in the background | `run` |
-//! | a panic of a thread, as an error on the page | `panicked` |
-//! | the data of a run for the page | `describe`, `shown`, `swarms`, `samples` |
-//! | the encoding of frames as bytes | `numbers` |
-//! | the server, its connections, its access control, and its errors | `routes`, `connections`, `access`, `failed` |
+//! | the detection of changes in the scene's files | `watch`, `follow` |
+//! | the scene, runs and recordings, for the page's session | `host` |
+//! | the server, its connections, its access control, and its answers | `routes`, `connections`, `access`, `responses` |
 //! | a frame rendered by POV-Ray | `render` |
-//! | the page itself | `page`, and the files in the folder of that name |
+//!
+//! The page itself, and the data that it shows, are in `page`.
 //!
 //! # Reading and running
 //!
-//! The page is part of the program (`page/`: plain modules, WebGL2, no library, no build step).
-//!
 //! - A thread reads the scene again whenever the size, time or inode of one of its files changes (`watch`), including files that do not
 //!   exist yet. It polls the files, because the system's notifications do not work over networks, and miss editors that replace a file. A
-//!   valid scene becomes the current run (`session`). For an invalid scene, the page shows the errors and keeps the last valid run. A panic
-//!   while a scene is read, reported or run becomes an error on the page, and the next version is read.
-//! - A thread records a run (`run`), or the run comes from the cache. A recording can be read while it grows. So going back needs no new
-//!   simulation, and memory does not grow. For each frame, `picture` gives all objects besides the bodies, as for scripts.
-//! - Particles are computed when the page requests them (`swarms`), from the bodies of the recorded frames. If there are too many, only
-//!   every n-th is sent.
-//!
-//! # The page
-//!
-//! - Each run has a unique number. The page requests the frames of a run in pieces of at most 2 MB, and keeps 256 MB of them. If the run has
-//!   been replaced, the answer is 404, and the page continues with the run that the server has announced. All that the page remembers of a
-//!   picture belongs to the object of its run, so nothing of an earlier run is drawn.
-//! - The page draws the triangles from `surface`, with the poses in a texture, so a frame costs one upload of numbers. The shaders compute
-//!   in 32 bits, with the size of the scene as unit of length and its center as origin; the simulation uses 64 bits. If there are many
-//!   balls, each is drawn as a square that faces the camera.
-//! - While paused, the page draws a frame once all of it has arrived; while playing, it interpolates places and orientations.
+//!   valid scene becomes the current run of the session. For an invalid scene, the page shows the errors and keeps the last valid run. A
+//!   panic while a scene is read, reported or run becomes an error on the page, and the next version is read.
+//! - A thread records a run (`host`), or the run comes from the cache. A recording can be read while it grows. Pages beyond the first
+//!   megabyte are in a file, so memory does not grow.
 //!
 //! # Connections and access
 //!
@@ -49,18 +32,11 @@
 
 mod access;
 mod connections;
-mod describe;
-mod failed;
-mod numbers;
-mod page;
-mod panicked;
+mod follow;
+mod host;
 mod render;
+mod responses;
 mod routes;
-mod run;
-mod samples;
-mod session;
-mod shown;
-mod swarms;
 mod watch;
 
 use std::io;
@@ -74,11 +50,13 @@ use std::time::Duration;
 use tokio::net::TcpListener;
 
 use self::access::Token;
+use self::follow::follow;
+use self::host::ServerHost;
 use self::render::Renderer;
 use self::routes::Server;
-use self::session::Session;
 use crate::cache::Cache;
 use crate::diagnostic::Report;
+use crate::page::Session;
 use crate::sandbox::{Confinement, Launcher};
 use crate::scene::Options;
 
@@ -119,12 +97,13 @@ impl Preview {
         if self.options.trust {
             confinement = confinement.trusting(Some(&self.scene), &[]);
         }
-        let session = Session::new(self.scene, self.options, self.cache, said);
+        let host = ServerHost::new(self.scene.clone(), self.cache, said);
+        let session = Arc::new(Session::new(self.options, Arc::<ServerHost>::clone(&host)));
         let renderer = Arc::new(Renderer::new(self.povray, confinement));
-        let server = Server { session: Arc::clone(&session), renderer: Arc::clone(&renderer), token };
+        let server = Server { session: Arc::clone(&session), host, renderer: Arc::clone(&renderer), token };
         listening(&format!("http://{address}/?token={}", server.token.as_str()));
         // This thread ends with the process, so a scene that takes long to read does not delay the end.
-        thread::Builder::new().name("scene".to_owned()).spawn(move || session.follow(stop))?;
+        thread::Builder::new().name("scene".to_owned()).spawn(move || follow(&session, &self.scene, stop))?;
         runtime.block_on(async {
             tokio::select! {
                 never = connections::serve(listener, routes::router(server)) => match never {},

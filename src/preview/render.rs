@@ -6,11 +6,10 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 use serde::Deserialize;
 
-use super::failed::Failed;
-use super::run::{PreviewRun, RunId};
 use crate::Run;
 use crate::diagnostic::{Code, Report};
 use crate::output::{self, Folder};
+use crate::page::{Failed, PageRun, RunId};
 use crate::render::{Images, Job, PovRay, Quality, Sequence, options};
 use crate::sandbox::Confinement;
 use crate::simulate::Recorded;
@@ -85,7 +84,7 @@ impl Renderer {
     /// Renders the image of a frame, and returns the bytes of a PNG.
     pub(super) fn render(
         &self,
-        run: &PreviewRun,
+        run: &PageRun,
         wanted: &Wanted,
         stop: &AtomicBool,
     ) -> Result<Vec<u8>, Failed> {

@@ -3,14 +3,9 @@
 //! | path | answer |
 //! | --- | --- |
 //! | `/` and the files beside it | the page, which contains nothing of the scene |
-//! | `/api/events` | the [`State`](super::session::State), whenever it changes |
-//! | `/api/runs/N` | the constant data of a run |
-//! | `/api/runs/N/forms` | the triangles of its base shapes |
-//! | `/api/runs/N/ghosts` | the earlier poses that the run shows as ghosts |
+//! | `/api/events` | the [`State`](crate::page::State), whenever it changes |
 //! | `/api/runs/N/poses?from=A&to=B` | the poses of its bodies in some frames; each frame is sent as soon as it is simulated |
-//! | `/api/runs/N/balance`, `…/series?body=I` | its energies and momenta, the motion of a body |
-//! | `/api/runs/N/shown?from=A&to=B` | the objects drawn beside the bodies in some frames |
-//! | `/api/runs/N/particles?from=A&to=B` | its particles in some frames |
+//! | other paths that begin with `/api/runs/` | what [`answer_of_run`] answers |
 //! | `/api/variants` | starts a run with another integration method |
 //! | `/api/render` | a frame rendered by POV-Ray |
 
@@ -26,25 +21,21 @@ use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use axum::{Json, Router};
-use serde::Deserialize;
 use tokio::sync::mpsc;
 use tokio_stream::wrappers::ReceiverStream;
 use tokio_stream::{Stream, StreamExt as _};
 
 use super::access::{self, Refused, Token};
 use super::connections;
-use super::failed::Failed;
-use super::page;
+use super::host::ServerHost;
 use super::render::{Renderer, Wanted};
-use super::run::{PreviewRun, RunId};
-use super::session::{Session, Variant};
-use super::{describe, numbers, samples, shown, swarms};
-use crate::font::Weight;
+use crate::page::{Answer, FILES, Failed, Frames, PageRun, RunId, Session, Variant, answer_of_run, poses};
 
 /// The data that the server answers requests from.
 #[derive(Clone)]
 pub(super) struct Server {
     pub(super) session: Arc<Session>,
+    pub(super) host: Arc<ServerHost>,
     pub(super) renderer: Arc<Renderer>,
     pub(super) token: Token,
 }
@@ -68,18 +59,12 @@ pub(super) fn router(server: Server) -> Router {
     let api = Router::new()
         .route("/api/events", get(events))
         .route("/api/runs/{id}", get(description))
-        .route("/api/runs/{id}/forms", get(forms))
-        .route("/api/runs/{id}/fonts", get(fonts))
-        .route("/api/runs/{id}/ghosts", get(ghosts))
-        .route("/api/runs/{id}/poses", get(poses))
-        .route("/api/runs/{id}/balance", get(balance))
-        .route("/api/runs/{id}/series", get(series))
-        .route("/api/runs/{id}/shown", get(what_is_shown))
-        .route("/api/runs/{id}/particles", get(particles))
+        .route("/api/runs/{id}/poses", get(poses_of_run))
+        .route("/api/runs/{id}/{what}", get(of_run))
         .route("/api/variants", post(variant))
         .route("/api/render", post(render))
         .route_layer(middleware::from_fn_with_state(server.clone(), with_token));
-    let page = page::FILES.iter().fold(Router::new(), |router, (path, kind, content)| {
+    let page = FILES.iter().fold(Router::new(), |router, (path, kind, content)| {
         router.route(path, get(move || async move { ([(header::CONTENT_TYPE, *kind)], *content) }))
     });
     let all = api.merge(page).layer(middleware::from_fn(connections::with_whole_body));
@@ -112,42 +97,13 @@ impl IntoResponse for Refused {
 }
 
 impl Server {
-    fn run(&self, id: RunId) -> Result<Arc<PreviewRun>, Failed> {
+    fn run(&self, id: RunId) -> Result<Arc<PageRun>, Failed> {
         self.session.run(id).ok_or(Failed::Gone)
     }
-}
 
-/// The parameters of a request for some frames of a run. Depending on the route, the answer waits for frames that are not simulated yet,
-/// or omits them.
-#[derive(Deserialize)]
-struct Frames {
-    #[serde(default)]
-    from: usize,
-    /// The end of the range of frames, exclusive. `None` for the end of the run.
-    to: Option<usize>,
-    /// The stride: only every n-th frame is included.
-    #[serde(default = "one")]
-    every: usize,
-    /// The index of the body, for requests about one body.
-    #[serde(default)]
-    body: usize,
-    /// The index of the camera: 0 for the main camera, then the views in their order.
-    #[serde(default)]
-    view: usize,
-}
-
-fn one() -> usize {
-    1
-}
-
-impl Frames {
-    fn end(&self, run: &PreviewRun) -> usize {
-        self.to.unwrap_or(usize::MAX).min(run.scene.simulation.timeline.frames())
-    }
-
-    /// Yields the numbers of the requested frames that have been simulated.
-    fn recorded(&self, run: &PreviewRun) -> impl Iterator<Item = usize> + use<> {
-        (self.from..self.end(run).min(run.recorded())).step_by(self.every.max(1))
+    async fn answer(self, id: RunId, what: String, frames: Frames) -> Result<Answer, Failed> {
+        let run = self.run(id)?;
+        blocking(move || answer_of_run(&run, &what, &frames)).await
     }
 }
 
@@ -158,7 +114,7 @@ async fn events(
     const MIN_EVENT_INTERVAL: Duration = Duration::from_millis(30);
     let (sender, receiver) = mpsc::channel(1);
     tokio::spawn(async move {
-        let mut pulse = server.session.pulse();
+        let mut pulse = server.host.pulse();
         let mut last = None;
         while !sender.is_closed() {
             let state = server.session.state();
@@ -179,36 +135,32 @@ async fn events(
     Sse::new(ReceiverStream::new(receiver).map(Ok)).keep_alive(KeepAlive::default())
 }
 
-async fn description(State(server): State<Server>, Path(id): Path<RunId>) -> Result<Response, Failed> {
-    let run = server.run(id)?;
-    blocking(move || Ok(Json(describe::describe(&run)).into_response())).await
+async fn description(
+    State(server): State<Server>,
+    Path(id): Path<RunId>,
+    Query(frames): Query<Frames>,
+) -> Result<Answer, Failed> {
+    server.answer(id, String::new(), frames).await
 }
 
-async fn forms(State(server): State<Server>, Path(id): Path<RunId>) -> Result<Response, Failed> {
-    let run = server.run(id)?;
-    blocking(move || Ok(binary(Body::from(describe::triangles(&run.scene))))).await
-}
-
-/// Sends the files of the fonts that labels have of their own, one after another. The description of the run has their sizes.
-async fn fonts(State(server): State<Server>, Path(id): Path<RunId>) -> Result<Response, Failed> {
-    let run = server.run(id)?;
-    let files = describe::fonts(&run.scene).map(|font| font.font(Weight::Regular).bytes());
-    Ok(binary(Body::from(files.collect::<Vec<_>>().concat())))
-}
-
-async fn ghosts(State(server): State<Server>, Path(id): Path<RunId>) -> Result<Response, Failed> {
-    let run = server.run(id)?;
-    Ok(Json(shown::ghosts(&run)).into_response())
+async fn of_run(
+    State(server): State<Server>,
+    Path((id, what)): Path<(RunId, String)>,
+    Query(frames): Query<Frames>,
+) -> Result<Answer, Failed> {
+    server.answer(id, what, frames).await
 }
 
 /// Sends the poses of frames in order, each as soon as it is simulated.
-async fn poses(
+async fn poses_of_run(
     State(server): State<Server>,
     Path(id): Path<RunId>,
     Query(frames): Query<Frames>,
 ) -> Result<Response, Failed> {
     /// The largest size of frames that are sent together, bytes. A larger frame is sent alone.
     const MAX_BATCH_BYTES: usize = 1 << 16;
+    /// The size of a pose, bytes: three numbers for the location, four for the orientation.
+    const BYTES_PER_POSE: usize = 7 * size_of::<f64>();
     /// The interval between two checks for new frames.
     const POLL_INTERVAL: Duration = Duration::from_millis(4);
     let run = server.run(id)?;
@@ -226,11 +178,11 @@ async fn poses(
                 tokio::time::sleep(POLL_INTERVAL).await;
                 continue;
             }
-            let many = (MAX_BATCH_BYTES / numbers::pose_bytes(bodies).max(1)).max(1);
+            let many = (MAX_BATCH_BYTES / (BYTES_PER_POSE * bodies).max(1)).max(1);
             let until = recorded.min(frame + many);
             let mut mine = reader.take().unwrap_or_else(|| run.recording().read());
             let read = tokio::task::spawn_blocking(move || {
-                let bytes = numbers::poses(&mut mine, bodies, frame..until).map(Bytes::from);
+                let bytes = poses(&mut mine, bodies, frame..until).map(Bytes::from);
                 (bytes, mine)
             });
             let bytes = match read.await {
@@ -247,50 +199,6 @@ async fn poses(
         }
     });
     Ok(binary(Body::from_stream(ReceiverStream::new(receiver))))
-}
-
-async fn balance(
-    State(server): State<Server>,
-    Path(id): Path<RunId>,
-    Query(frames): Query<Frames>,
-) -> Result<Response, Failed> {
-    let run = server.run(id)?;
-    blocking(move || Ok(binary(Body::from(samples::balance(&run, frames.recorded(&run))?)))).await
-}
-
-async fn series(
-    State(server): State<Server>,
-    Path(id): Path<RunId>,
-    Query(frames): Query<Frames>,
-) -> Result<Response, Failed> {
-    let run = server.run(id)?;
-    if frames.body >= run.scene.bodies.len() {
-        return Err(Failed::Gone);
-    }
-    blocking(move || Ok(binary(Body::from(samples::of_body(&run, frames.body, frames.recorded(&run))?))))
-        .await
-}
-
-async fn what_is_shown(
-    State(server): State<Server>,
-    Path(id): Path<RunId>,
-    Query(frames): Query<Frames>,
-) -> Result<Response, Failed> {
-    let run = server.run(id)?;
-    blocking(move || {
-        let shown = shown::frames(&run, frames.view, frames.recorded(&run))?;
-        Ok(Json(shown).into_response())
-    })
-    .await
-}
-
-async fn particles(
-    State(server): State<Server>,
-    Path(id): Path<RunId>,
-    Query(frames): Query<Frames>,
-) -> Result<Response, Failed> {
-    let run = server.run(id)?;
-    blocking(move || Ok(binary(Body::from(swarms::frames(&run, frames.recorded(&run))?)))).await
 }
 
 async fn variant(State(server): State<Server>, Json(variant): Json<Variant>) -> Result<Response, Failed> {

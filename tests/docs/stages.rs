@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::support::root;
 
 /// The modules of the library, in an order in which each imports only those before it. A new module gets a line here.
-const STAGES: [&str; 28] = [
+const STAGES: [&str; 29] = [
     "physics",
     "threads",
     "system",
@@ -35,6 +35,7 @@ const STAGES: [&str; 28] = [
     "render",
     "overwrite",
     "export",
+    "page",
     "preview",
 ];
 

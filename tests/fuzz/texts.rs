@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::io;
 use std::path::Path;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 use jabuka::Scene;
 use jabuka::catalog::Category;
@@ -11,6 +12,7 @@ use jabuka::diagnostic::{Code, Diagnostic, Report, Sources, Span, nearest, visib
 use jabuka::explain::Explanation;
 use jabuka::font::{Step, Typeface, Weight};
 use jabuka::lettering;
+use jabuka::page::{Frames, Host, PageRun, Session, answer};
 use jabuka::physics::Method;
 use jabuka::report::plot::{Chart, Curve, Picture, png, svg};
 use jabuka::report::{Assessment, assess};
@@ -23,7 +25,7 @@ use jabuka::simulate::Selection;
 use proptest::prelude::*;
 
 /// The public functions with a text argument that are tried here, as `file: name`.
-const TRIED: [&str; 51] = [
+const TRIED: [&str; 53] = [
     "catalog.rs: named",
     "diagnostic/code.rs: named",
     "diagnostic/mod.rs: at",
@@ -50,6 +52,8 @@ const TRIED: [&str; 51] = [
     "lettering.rs: spaces",
     "lettering.rs: width",
     "lettering.rs: without_marks",
+    "page/answers.rs: answer",
+    "page/answers.rs: answer_of_run",
     "report/plot/chart.rs: of_charts",
     "report/plot/mod.rs: of",
     "report/text.rs: to_text",
@@ -97,6 +101,33 @@ const NAMES: [&str; 16] = [
     "shape/mesh/mod.rs: new",
     "shape/mesh/mod.rs: surface",
 ];
+
+/// The host of a page that shows one ball.
+struct OneBall;
+
+impl Host for OneBall {
+    fn read(&self, options: &Options) -> Result<Scene, Report> {
+        Scene::parse_with("simulation.duration = 0.1\nbody.a.shape.sphere.radius = 1", options)
+    }
+
+    fn start(&self, run: Arc<PageRun>) -> io::Result<()> {
+        let mut work = run.work();
+        while work.advance() {}
+        Ok(())
+    }
+
+    fn changed(&self) {}
+
+    fn report(&self, _report: &Report) {}
+}
+
+/// The session of a page that shows one ball, whose run has the number 1.
+static SESSION: LazyLock<Session> = LazyLock::new(|| {
+    let session = Session::new(Options::default(), Arc::new(OneBall));
+    session.read();
+    assert!(answer(&session, "/api/runs/1/poses", &Frames::default()).is_ok());
+    session
+});
 
 /// Generates texts of arbitrary characters, and texts of words from scenes, formulas, labels and SDL.
 fn texts() -> impl Strategy<Value = String> {
@@ -235,6 +266,10 @@ proptest! {
         let braces = text.match_indices('{').filter(|(at, _)| lettering::is_script(&text, *at));
         prop_assert!(braces.count() <= text.len());
         prop_assert!(text.is_empty() || !jabuka::scene::Angle::usual_text(&text).is_empty());
+
+        for path in [text.clone(), format!("/api/runs/{text}"), format!("/api/runs/1/{text}")] {
+            let _ = answer(&SESSION, &path, &Frames::default());
+        }
 
         let _ = Scene::parse(&text).map_err(|report| report.to_text(false));
         let options = Options { overrides: vec![Override::new(&other)], trust: true, ..Options::default() };

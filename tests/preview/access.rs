@@ -23,17 +23,29 @@ type Asked = Vec<(&'static str, String)>;
 
 /// Returns the paths of the server's interface and of its page, read from its source code, with a run and a body inserted.
 fn paths() -> (Asked, Asked) {
-    let read = |file: &str| std::fs::read_to_string(root().join("src/preview").join(file)).unwrap();
-    let (routes, page) = (read("routes.rs"), read("page.rs"));
+    let read = |file: &str| std::fs::read_to_string(root().join("src").join(file)).unwrap();
+    let (routes, answers, page) = (read("preview/routes.rs"), read("page/answers.rs"), read("page/files.rs"));
     let of_api = routes.split(".route(\"").skip(1).map(|rest| {
         let (path, after) = rest.split_once('"').unwrap();
         (if after.contains("post(") && after.find("post(") < after.find('\n') { "POST" } else { "GET" }, path)
     });
-    let api: Vec<_> = of_api.map(|(method, path)| (method, path.replace("{id}", "1"))).collect();
+    // The last part of a path names one of the answers about a run.
+    let whats: Vec<&str> =
+        answers.split("\n        \"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+    let api: Vec<_> = of_api
+        .flat_map(|(method, path)| {
+            let path = path.replace("{id}", "1");
+            match path.strip_suffix("{what}") {
+                Some(path) => whats.iter().map(|what| (method, format!("{path}{what}"))).collect(),
+                None => vec![(method, path)],
+            }
+        })
+        .filter(|(_, path)| !path.ends_with('/'))
+        .collect();
     let files =
         page.split("    (\"/").skip(1).map(|rest| ("GET", format!("/{}", rest.split('"').next().unwrap())));
     let files: Vec<_> = files.collect();
-    assert!(api.len() >= 10 && api.iter().all(|(_, path)| path.starts_with("/api/")), "{api:?}");
+    assert!(api.len() >= 12 && api.iter().all(|(_, path)| path.starts_with("/api/")), "{api:?}");
     assert!(api.iter().filter(|(method, _)| *method == "POST").count() == 2, "{api:?}");
     assert!(files.len() >= 10, "{files:?}");
     (api, files)

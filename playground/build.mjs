@@ -1,0 +1,71 @@
+// Makes the static folder of the playground: node build.mjs MODULE.wasm VERSION
+
+import { build } from "esbuild";
+import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const root = join(here, "..");
+const page = join(root, "src/page/web");
+const dist = join(here, "dist");
+const [module, version] = process.argv.slice(2);
+
+const POLICY =
+  "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'; img-src 'self' blob: data:; " +
+  "style-src 'self' 'unsafe-inline'; font-src 'self'; base-uri 'none'; form-action 'none'";
+
+/** The page's modules get their data from the worker. */
+const source = {
+  name: "source",
+  setup: ({ onResolve }) => onResolve({ filter: /^\.\/source\.js$/ }, () => ({ path: join(here, "web/source.js") })),
+};
+
+rmSync(dist, { recursive: true, force: true });
+mkdirSync(join(dist, "scenes"), { recursive: true });
+const common = { bundle: true, minify: true, target: "es2022", legalComments: "none", logLevel: "warning" };
+await build({ ...common, entryPoints: [join(here, "web/main.js")], outdir: dist, format: "esm", splitting: true, chunkNames: "[name]-[hash]", plugins: [source] });
+await build({ ...common, entryPoints: [join(here, "web/worker.js")], outdir: dist, format: "iife" });
+
+copyFileSync(module, join(dist, "jabuka.wasm"));
+for (const name of ["icon.svg"]) copyFileSync(join(page, name), join(dist, name));
+for (const name of ["DejaVuSans.ttf", "DejaVuSans-Bold.ttf"]) copyFileSync(join(root, "templates/assets", name), join(dist, name));
+const style = ["style.css", "playground.css"].map((name) => readFileSync(join(name === "style.css" ? page : join(here, "web"), name), "utf8"));
+writeFileSync(join(dist, "style.css"), style.join(""));
+const html = readFileSync(join(page, "index.html"), "utf8")
+  .replace(/<link rel="modulepreload"[^>]*>\n/g, "")
+  .replace("<title>", `<meta http-equiv="Content-Security-Policy" content="${POLICY}">\n<link rel="preload" href="jabuka.wasm" as="fetch" crossorigin>\n<title>`);
+writeFileSync(join(dist, "index.html"), html);
+writeFileSync(join(dist, "service.js"), readFileSync(join(here, "web/service.js"), "utf8").replace("VERSION", version));
+
+// The shelf has the topics, titles and sentences of the gallery's page.
+const gallery = readFileSync(join(root, "docs/gallery.md"), "utf8");
+const others = readdirSync(join(root, "scenes"), { withFileTypes: true })
+  .filter((entry) => entry.isDirectory())
+  .flatMap(({ name }) => readdirSync(join(root, "scenes", name)).map((file) => `${name}/${file}`));
+const topics = gallery.split("\n## ").slice(1).map((part) => {
+  const topic = part.slice(0, part.indexOf("\n"));
+  const cards = [...part.matchAll(/\[!\[([^\]]*)\]\(gallery\/(\w+)\.jpg\)\]\([^)]*\)<br>\*\*[^*]*\*\*<br>([^|]*)\|/g)];
+  const scenes = cards.map(([, title, name, about]) => {
+    const text = readFileSync(join(root, "scenes", `${name}.toml`), "utf8");
+    writeFileSync(join(dist, "scenes", `${name}.toml`), text);
+    copyFileSync(join(root, "docs/gallery", `${name}.jpg`), join(dist, "scenes", `${name}.jpg`));
+    return { name, title, about: about.trim(), files: others.filter((file) => text.includes(file)) };
+  });
+  return { topic, scenes };
+});
+for (const file of new Set(topics.flatMap(({ scenes }) => scenes.flatMap(({ files }) => files)))) {
+  mkdirSync(dirname(join(dist, "scenes", file)), { recursive: true });
+  copyFileSync(join(root, "scenes", file), join(dist, "scenes", file));
+}
+writeFileSync(join(dist, "scenes/shelf.json"), JSON.stringify(topics));
+
+// The licences of what the page contains.
+const { packages } = JSON.parse(readFileSync(join(here, "package-lock.json"), "utf8"));
+const bundled = Object.entries(packages).filter(([path, { license }]) => path && license && !/esbuild|axe-core/.test(path));
+const texts = bundled.map(([path, { version: number, license }]) => {
+  const folder = join(here, path);
+  const text = readdirSync(folder).filter((name) => /^licen[cs]e/i.test(name)).map((name) => readFileSync(join(folder, name), "utf8")).join("\n");
+  return `${path.replace("node_modules/", "")} ${number}: ${license}\n\n${text}`;
+});
+writeFileSync(join(dist, "licences.txt"), texts.join(`\n${"-".repeat(72)}\n`));

@@ -1,0 +1,51 @@
+// Prints the SHA-256 of all files that the module makes of scenes, as JSON: node digests.mjs MODULE.wasm SCENE.toml …
+
+import { createHash } from "node:crypto";
+import { readFileSync, readdirSync } from "node:fs";
+import { basename, dirname, join } from "node:path";
+
+import { filesOf } from "./web/files.js";
+import { Jabuka } from "./web/module.js";
+
+/** The number of frames whose scripts are made together. */
+const TOGETHER = 100;
+
+const [path, ...scenes] = process.argv.slice(2);
+const module = new WebAssembly.Module(readFileSync(path));
+
+/** Returns the bytes of all files below a folder, by path. */
+function filesBelow(folder, before = "") {
+  const files = {};
+  for (const entry of readdirSync(folder, { withFileTypes: true })) {
+    const path = join(folder, entry.name);
+    if (entry.isDirectory()) Object.assign(files, filesBelow(path, `${before}${entry.name}/`));
+    else files[before + entry.name] = readFileSync(path);
+  }
+  return files;
+}
+
+const digests = {};
+for (const scene of scenes) {
+  const begun = performance.now();
+  const jabuka = await Jabuka.start(module);
+  jabuka.put(filesBelow(dirname(scene)));
+  const { current, problem } = jabuka.read(basename(scene));
+  if (problem) throw new Error(problem);
+  while (jabuka.advance(1000));
+  const simulated = performance.now();
+  const progress = jabuka.json({ path: "/api/state" }).runs[current];
+  if (progress.problem) throw new Error(progress.problem);
+  const name = basename(scene, ".toml");
+  const { views } = jabuka.json({ path: `/api/runs/${current}` });
+  for (let view = 0; view <= views.length; view++) {
+    for (let from = 0; from < progress.frames; from += TOGETHER) {
+      const frames = { from, to: from + TOGETHER, view };
+      for (const [file, bytes] of filesOf(jabuka.ask({ path: `/api/runs/${current}/scripts`, frames }))) {
+        digests[`${name}/${view ? `${views[view - 1]}/` : ""}${file}`] = createHash("sha256").update(bytes).digest("hex");
+      }
+    }
+  }
+  const seconds = (milliseconds) => (milliseconds / 1000).toFixed(2);
+  console.error(`${name}: simulated in ${seconds(simulated - begun)} s, written in ${seconds(performance.now() - simulated)} s`);
+}
+console.log(JSON.stringify(digests));

@@ -1,0 +1,83 @@
+// The editor for the text of the scene. It is loaded after the first picture, because it is large.
+
+import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
+import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
+import { HighlightStyle, StreamLanguage, bracketMatching, syntaxHighlighting } from "@codemirror/language";
+import { toml } from "@codemirror/legacy-modes/mode/toml";
+import { lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
+import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
+import { EditorState } from "@codemirror/state";
+import { EditorView, drawSelection, highlightActiveLine, hoverTooltip, keymap, lineNumbers } from "@codemirror/view";
+import { tags } from "@lezer/highlight";
+
+import { completions, described } from "./keys.js";
+
+/** The colors of the page, in light and dark. */
+const COLORS = HighlightStyle.define([
+  { tag: tags.comment, color: "var(--quiet)" },
+  { tag: tags.string, color: "var(--kinetic)" },
+  { tag: [tags.number, tags.bool, tags.atom], color: "var(--accent)" },
+  { tag: [tags.propertyName, tags.definition(tags.variableName), tags.variableName], color: "var(--ink)" },
+  { tag: [tags.standard(tags.variableName), tags.tagName, tags.heading], color: "var(--ink)", fontWeight: "600" },
+]);
+
+/** Returns the offset of a place in a document. Lines and columns count from 1, and columns count characters, not UTF-16 units. */
+function offset(document, line, column) {
+  if (line > document.lines) return document.length;
+  const { from, text } = document.line(line);
+  return from + [...text].slice(0, column - 1).join("").length;
+}
+
+function range(document, place) {
+  return { from: offset(document, place.line, place.column), to: offset(document, place.end_line, place.end_column) };
+}
+
+/** Makes an editor in an element. `changed` receives the text after each change. */
+export function makeEditor(parent, text, changed) {
+  const extensions = [
+    lineNumbers(), lintGutter(), history(), drawSelection(), highlightActiveLine(), bracketMatching(), closeBrackets(),
+    highlightSelectionMatches(), autocompletion({ override: [completions] }), hoverTooltip(described),
+    StreamLanguage.define(toml), syntaxHighlighting(COLORS),
+    keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...completionKeymap, ...lintKeymap]),
+    EditorView.lineWrapping,
+    EditorView.contentAttributes.of({ "aria-label": "The text of the scene", tabindex: "0" }),
+    EditorView.updateListener.of((update) => update.docChanged && changed(update.state.doc.toString())),
+  ];
+  const view = new EditorView({ parent, state: EditorState.create({ doc: text, extensions }) });
+  return {
+    view,
+    /** Replaces the text, and forgets the history of the one before. */
+    set(text) {
+      view.setState(EditorState.create({ doc: text, extensions }));
+    },
+    /** Changes the text between two offsets, as a step that can be undone. */
+    change(from, to, insert) {
+      view.dispatch({ changes: { from, to, insert } });
+    },
+    /** Shows the errors and warnings of jabuka that lie in the file of this name. */
+    mark(entries, name) {
+      const { doc } = view.state;
+      const own = entries.filter((entry) => entry.file === name);
+      const marks = own.map((entry) => ({
+        ...range(doc, entry),
+        severity: entry.severity,
+        source: entry.code,
+        message: [entry.message, entry.label, entry.help && `help: ${entry.help}`].filter(Boolean).join("\n"),
+        actions: fixes(entry, name),
+      }));
+      view.dispatch(setDiagnostics(view.state, marks.sort((a, b) => a.from - b.from)));
+    },
+  };
+}
+
+/** Returns the action that mends an error, if all of it is in this file. */
+function fixes({ fix = [] }, name) {
+  if (!fix.length || fix.some(({ file }) => file !== name)) return [];
+  const apply = (view) => {
+    const { doc } = view.state;
+    view.dispatch({ changes: fix.map((edit) => ({ ...range(doc, edit), insert: edit.text })) });
+  };
+  const [first] = fix;
+  const what = fix.length === 1 && first.text.trim().length < 30 ? first.text.trim() : "";
+  return [{ name: what ? `Write ${what}` : "Mend it", apply }];
+}

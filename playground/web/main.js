@@ -1,0 +1,151 @@
+// The playground: the page of the preview, with an editor, a shelf of scenes, links and scripts to take along.
+
+import "../../src/page/web/main.js";
+import { element, open } from "../../src/page/web/parts.js";
+import { linkOf, linked } from "./link.js";
+import { makeShelf } from "./shelf.js";
+import { onRead, setScene } from "./source.js";
+
+/** The scene that a first visit shows. */
+const FIRST = "newtons_cradle";
+/** The time without a further key after which the text is read, ms. */
+const PAUSE = 120;
+
+/** The scene: its name, its text, and the bytes of its other files by path. */
+const scene = { name: "", text: "", files: {} };
+let editor;
+let timer;
+
+function make(tag, attributes = {}, ...children) {
+  const made = Object.assign(document.createElement(tag), attributes);
+  made.append(...children);
+  return made;
+}
+
+const said = make("p", { id: "said" });
+said.setAttribute("role", "status");
+const field = make("div", { id: "text" });
+const button = (label, title, deed) => make("button", { type: "button", textContent: label, title, onclick: deed });
+const scripts = button("Scripts", "Save the POV-Ray scripts of all frames as a zip file", takeScripts);
+const tools = make("div", { id: "tools" }, button("Examples", "Choose a scene", () => shelf.show()), button("Copy link", "Copy a link that holds this scene", copyLink), scripts);
+tools.setAttribute("role", "group");
+tools.setAttribute("aria-label", "Scene");
+const pane = make("section", { id: "editor" }, tools, field, said);
+pane.setAttribute("aria-label", "Text of the scene");
+const shelf = makeShelf(async (name) => {
+  await openExample(name);
+  history.replaceState(null, "", `#gallery=${name}`);
+});
+
+function read() {
+  clearTimeout(timer);
+  setScene(`${scene.name}.toml`, { ...scene.files, [`${scene.name}.toml`]: scene.text });
+}
+
+function edited(text) {
+  scene.text = text;
+  clearTimeout(timer);
+  timer = setTimeout(read, PAUSE);
+}
+
+/** Shows another scene. */
+function show(name, text, files = {}) {
+  Object.assign(scene, { name, text, files });
+  editor?.set(text);
+  say("");
+  read();
+}
+
+function say(text) {
+  said.textContent = text;
+}
+
+async function openExample(name) {
+  const { text, files } = await shelf.load(name);
+  show(name, text, files);
+}
+
+async function openLinked() {
+  const asked = await linked();
+  if (asked?.gallery) await openExample(asked.gallery);
+  else if (asked) show(asked.name, asked.text);
+  else await openExample(FIRST);
+}
+
+async function begin() {
+  try {
+    await openLinked();
+  } catch (error) {
+    await openExample(FIRST);
+    say(error.message);
+  }
+}
+
+async function copyLink() {
+  const link = await linkOf(scene);
+  history.replaceState(null, "", new URL(link).hash);
+  const others = Object.keys(scene.files).length ? " The other files of the scene are not in it." : "";
+  try {
+    await navigator.clipboard.writeText(link);
+    say(`The link is copied. It holds the scene, and nothing has left this browser.${others}`);
+  } catch {
+    say(`The address of this page is the link now: copy it.${others}`);
+  }
+}
+
+async function takeScripts() {
+  const { run } = open;
+  if (!run?.description.stage) return say("The scripts are there as soon as the run is finished.");
+  const { save, scriptsOf } = await import("./zip.js");
+  const [name, { views }] = [scene.name, run.description];
+  scripts.disabled = true;
+  try {
+    const zip = await scriptsOf({ id: run.id, frames: run.frames, views }, (part) => say(`The scripts are being made: ${Math.round(100 * part)} %`));
+    save(zip, `${name}.zip`);
+    say(`${name}.zip is saved. POV-Ray renders its scripts: povray animation.ini`);
+  } catch (error) {
+    say(error.message);
+  }
+  scripts.disabled = false;
+}
+
+async function takeFiles(list) {
+  const files = await Promise.all(Array.from(list, async (file) => [file.name, new Uint8Array(await file.arrayBuffer())]));
+  for (const [name, bytes] of files) {
+    const stem = /^([\w-]+)\.toml$/.exec(name)?.[1];
+    if (stem && files.filter(([other]) => other.endsWith(".toml")).length === 1) Object.assign(scene, { name: stem, text: new TextDecoder().decode(bytes) });
+    else scene.files[name] = bytes;
+  }
+  editor?.set(scene.text);
+  const others = Object.keys(scene.files);
+  say(others.length ? `Files beside the scene: ${others.join(", ")}` : "");
+  read();
+}
+
+async function loadEditor() {
+  const { makeEditor } = await import("./editor.js");
+  editor = makeEditor(field, scene.text, edited);
+  window.jabuka.editor = editor;
+  mark();
+}
+
+let entries = [];
+function mark() {
+  editor?.mark(entries, `${scene.name}.toml`);
+}
+
+document.querySelector("main").prepend(pane);
+document.body.append(shelf.dialog);
+onRead((state) => {
+  ({ diagnostics: entries } = state);
+  mark();
+});
+window.addEventListener("hashchange", () => begin());
+window.addEventListener("dragover", (event) => event.preventDefault());
+window.addEventListener("drop", (event) => {
+  if (!event.dataTransfer.files.length) return;
+  event.preventDefault();
+  takeFiles(event.dataTransfer.files);
+});
+begin().then(() => window.jabuka.whenDrawn(() => element("nothing").hidden || element("problem").hidden === false)).then(loadEditor);
+if (location.protocol.startsWith("http")) navigator.serviceWorker?.register("service.js");

@@ -1,0 +1,27 @@
+// Keeps the files of the page, so that it works without a network after the first visit.
+
+const NAME = "jabuka-VERSION";
+
+self.addEventListener("install", () => self.skipWaiting());
+
+self.addEventListener("activate", (event) => {
+  const old = async () => {
+    for (const name of await caches.keys()) if (name.startsWith("jabuka-") && name !== NAME) await caches.delete(name);
+    await self.clients.claim();
+  };
+  event.waitUntil(old());
+});
+
+self.addEventListener("fetch", (event) => {
+  const { request } = event;
+  if (request.method !== "GET" || new URL(request.url).origin !== location.origin) return;
+  const answer = async () => {
+    const cache = await caches.open(NAME);
+    const known = await cache.match(request, { ignoreSearch: true });
+    if (known) return known;
+    const response = await fetch(request);
+    if (response.ok) await cache.put(request, response.clone());
+    return response;
+  };
+  event.respondWith(answer());
+});

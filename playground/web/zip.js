@@ -1,0 +1,48 @@
+// The scripts of the shown run as a zip file.
+
+import { Zip, ZipDeflate } from "fflate";
+
+import { filesOf } from "./files.js";
+import { binary } from "./source.js";
+
+/** The number of frames whose scripts are made together. */
+const TOGETHER = 50;
+
+/**
+ * Returns a zip file with all that `jabuka compile` writes for a run, except its manifest. `views` are the names of the cameras besides the main
+ * one: each has a folder. `tell` receives the part that is done, from 0 to 1.
+ */
+export async function scriptsOf({ id, frames, views }, tell) {
+  const parts = [];
+  const zip = new Zip((error, part) => {
+    if (error) throw error;
+    parts.push(part);
+  });
+  for (let view = 0; view <= views.length; view++) {
+    const folder = view ? `${views[view - 1]}/` : "";
+    const known = new Set();
+    for (let from = 0; from < frames; from += TOGETHER) {
+      const bytes = new Uint8Array(await binary(`/api/runs/${id}/scripts`, { from, to: from + TOGETHER, view }));
+      for (const [name, contents] of filesOf(bytes)) {
+        if (known.has(name)) continue;
+        known.add(name);
+        // Equal scripts give equal files, so the time of each is a fixed one.
+        const file = new ZipDeflate(folder + name, { level: 6, mtime: "1980-01-01T00:00:00" });
+        zip.add(file);
+        file.push(contents, true);
+      }
+      tell((view + Math.min(1, (from + TOGETHER) / frames)) / (views.length + 1));
+    }
+  }
+  zip.end();
+  return new Blob(parts, { type: "application/zip" });
+}
+
+/** Saves a file on the reader's machine. */
+export function save(blob, name) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}

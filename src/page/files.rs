@@ -1,0 +1,70 @@
+//! The files of the page. They are built into the program.
+
+use crate::font;
+
+/// The content type of the page.
+const HTML_TYPE: &str = "text/html; charset=utf-8";
+/// The content type of style sheets.
+const CSS_TYPE: &str = "text/css; charset=utf-8";
+/// The content type of scripts.
+const JAVASCRIPT_TYPE: &str = "text/javascript; charset=utf-8";
+
+/// The files of the page: path, content type and content of each.
+pub const FILES: &[(&str, &str, &[u8])] = &[
+    ("/", HTML_TYPE, include_bytes!("web/index.html")),
+    ("/style.css", CSS_TYPE, include_bytes!("web/style.css")),
+    ("/icon.svg", "image/svg+xml", include_bytes!("web/icon.svg")),
+    ("/main.js", JAVASCRIPT_TYPE, include_bytes!("web/main.js")),
+    ("/controls.js", JAVASCRIPT_TYPE, include_bytes!("web/controls.js")),
+    ("/gl.js", JAVASCRIPT_TYPE, include_bytes!("web/gl.js")),
+    ("/hook.js", JAVASCRIPT_TYPE, include_bytes!("web/hook.js")),
+    ("/lines.js", JAVASCRIPT_TYPE, include_bytes!("web/lines.js")),
+    ("/math.js", JAVASCRIPT_TYPE, include_bytes!("web/math.js")),
+    ("/painter.js", JAVASCRIPT_TYPE, include_bytes!("web/painter.js")),
+    ("/panel.js", JAVASCRIPT_TYPE, include_bytes!("web/panel.js")),
+    ("/parts.js", JAVASCRIPT_TYPE, include_bytes!("web/parts.js")),
+    ("/picture.js", JAVASCRIPT_TYPE, include_bytes!("web/picture.js")),
+    ("/player.js", JAVASCRIPT_TYPE, include_bytes!("web/player.js")),
+    ("/plots.js", JAVASCRIPT_TYPE, include_bytes!("web/plots.js")),
+    ("/render.js", JAVASCRIPT_TYPE, include_bytes!("web/render.js")),
+    ("/run.js", JAVASCRIPT_TYPE, include_bytes!("web/run.js")),
+    ("/runs.js", JAVASCRIPT_TYPE, include_bytes!("web/runs.js")),
+    ("/scene_plots.js", JAVASCRIPT_TYPE, include_bytes!("web/scene_plots.js")),
+    ("/shaders.js", JAVASCRIPT_TYPE, include_bytes!("web/shaders.js")),
+    ("/source.js", JAVASCRIPT_TYPE, include_bytes!("web/source.js")),
+    ("/surroundings.js", JAVASCRIPT_TYPE, include_bytes!("web/surroundings.js")),
+    ("/texts.js", JAVASCRIPT_TYPE, include_bytes!("web/texts.js")),
+    ("/viewpoint.js", JAVASCRIPT_TYPE, include_bytes!("web/viewpoint.js")),
+    ("/DejaVuSans.ttf", "font/ttf", font::FILES[0].1),
+    ("/DejaVuSans-Bold.ttf", "font/ttf", font::FILES[1].1),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The page must contain nothing that its own content security policy would forbid.
+    #[test]
+    fn nothing_comes_from_elsewhere() {
+        for (path, _, content) in FILES.iter().filter(|(_, kind, _)| *kind != "font/ttf") {
+            let text = std::str::from_utf8(content).unwrap().replace("http://www.w3.org/2000/svg", "");
+            for forbidden in ["http:", "https:", "innerHTML", "eval(", "style=\"", "onclick="] {
+                assert!(!text.contains(forbidden), "{path}: {forbidden}");
+            }
+        }
+    }
+
+    /// The skies are defined twice: in the templates and in the page.
+    #[test]
+    fn the_skies_are_those_of_the_templates() {
+        let environment = include_str!("../../templates/environment.inc");
+        let page = include_str!("web/surroundings.js");
+        let skies = page.split_once("const DAYLIGHT").unwrap().1.split_once("const even").unwrap().0;
+        let stops: Vec<&str> = skies.split('[').filter_map(|stop| Some(stop.split_once(']')?.0)).collect();
+        assert_eq!(stops.len(), 7 + 7 + 4);
+        for (height, color) in stops.into_iter().filter_map(|stop| stop.split_once(", ")) {
+            let stop = format!("[{height} color srgb <{color}>]");
+            assert!(environment.contains(&stop), "{stop}");
+        }
+    }
+}

@@ -1,0 +1,41 @@
+// `window.jabuka`: an interface for programs, such as tests, that control the page or read what it shows.
+
+import { drawn, element, open, panel, player, redraw } from "./parts.js";
+
+window.jabuka = {
+  get frame() { return player.frame; },
+  get frames() { return open.run?.frames ?? 0; },
+  get time() { return player.time; },
+  get playing() { return player.playing; },
+  get name() { return open.run?.description.name ?? null; },
+  get run() { return open.run?.id ?? null; },
+  get integrator() { return open.run?.description.integrator ?? null; },
+  get recorded() { return open.run?.progress?.recorded ?? 0; },
+  get settled() { return Boolean(open.run?.description.stage); },
+  get problem() { return element("problem").hidden || element("problem").classList.contains("mild") ? null : element("problem").textContent; },
+  get comparison() { return element("comparison").textContent; },
+  get selected() { return open.run?.description.bodies[panel.body]?.name ?? null; },
+  get drawn() { return { count: drawn.count, run: drawn.run, frame: drawn.frame }; },
+  /** The transform from world coordinates (m) to the picture: (point - center) / size, and then the matrix `clip`. */
+  get view() {
+    const { clip, width, height } = drawn.view ?? { clip: [] };
+    return { clip: Array.from(clip), width, height, ...open.painter.space };
+  },
+  get bodies() { return open.run?.description.bodies.map(({ name }) => name) ?? []; },
+  /** Returns the pose of a body (by name or index) in a frame: location (m) and orientation (x y z w). Null until it is fetched. */
+  pose(body, frame = player.frame) {
+    const number = typeof body === "number" ? body : (panel.numbers?.get(body) ?? -1);
+    return open.run?.pose(number, frame) ?? null;
+  },
+  seek(frame) { player.pause(); player.seek(frame); redraw(); },
+  play() { player.play(); redraw(); },
+  pause() { player.pause(); redraw(); },
+  reset() { player.reset(); redraw(); },
+  /** Returns a promise that resolves when the requested frame has been drawn, or when the condition `is` holds. */
+  whenDrawn(is = () => drawn.run === open.run?.id && drawn.frame === player.frame && !drawn.dirty) {
+    return new Promise((resolve) => {
+      drawn.waiting.push(() => (is(window.jabuka) ? (resolve(window.jabuka.drawn), true) : false));
+      redraw();
+    });
+  },
+};

@@ -1,0 +1,9 @@
+//! Tests of the playground: the static page in a real browser, and its module in Node. `playground/build` must have made the page.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests are tests")]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod digests;
+mod page;
+mod site;

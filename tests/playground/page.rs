@@ -1,0 +1,51 @@
+//! The page in a real browser. The tests are in `page.mjs`.
+
+use crate::site::Site;
+use crate::support::{compile, root, scene};
+
+/// Declares tests of `page.mjs`, each with a server of its own.
+macro_rules! in_the_browser {
+    ($($(#[$about:meta])* $test:ident),+ $(,)?) => {
+        $(
+            $(#[$about])*
+            #[test]
+            fn $test() {
+                Site::served().shows(stringify!($test), "");
+            }
+        )+
+    };
+}
+
+in_the_browser!(
+    the_first_visit_shows_a_scene,
+    an_edit_is_run_and_an_older_run_is_never_drawn_again,
+    an_error_is_marked_at_its_place_and_mended_by_a_click,
+    keys_are_completed_and_explained,
+    keys_typed_in_the_editor_do_not_control_the_player,
+    a_link_holds_the_scene,
+    damaged_and_hostile_links_are_refused,
+    a_scene_that_takes_for_ever_gives_way_to_the_next,
+    every_scene_of_the_shelf_opens,
+    files_that_are_dropped_lie_beside_the_scene,
+    it_works_without_a_network_after_the_first_visit,
+    small_windows_show_all_of_it,
+    accessibility_rules_hold,
+);
+
+/// The zip file has the scripts that the program writes.
+#[test]
+fn the_scripts_are_those_of_the_program() {
+    let folder = tempfile::tempdir().unwrap();
+    compile(&scene("hammer"), folder.path(), &[]);
+    Site::served().shows("the_zip_file_has_these_files", folder.path().to_str().unwrap());
+}
+
+/// Checks that every test in the script is listed here; otherwise it would never run.
+#[test]
+fn every_test_in_the_script_is_run() {
+    let read = |name: &str| std::fs::read_to_string(root().join("tests/playground").join(name)).unwrap();
+    let (script, tests) = (read("page.mjs"), read("page.rs"));
+    let names = script.split("\n  async ").skip(1).map(|rest| rest.split('(').next().unwrap());
+    let unknown: Vec<&str> = names.filter(|name| !tests.contains(name)).collect();
+    assert_eq!(unknown, [""; 0]);
+}
