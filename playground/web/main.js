@@ -4,7 +4,7 @@ import "../../src/page/web/main.js";
 import { element, open } from "../../src/page/web/parts.js";
 import { linkOf, linked } from "./link.js";
 import { makeShelf } from "./shelf.js";
-import { onRead, setScene } from "./source.js";
+import { onRead, onSet, setScene } from "./source.js";
 
 /** The scene that a first visit shows. */
 const FIRST = "newtons_cradle";
@@ -37,9 +37,28 @@ const shelf = makeShelf(async (name) => {
   history.replaceState(null, "", `#gallery=${name}`);
 });
 
+/** Reads the text. Resolves when that is done. */
 function read() {
   clearTimeout(timer);
-  setScene(`${scene.name}.toml`, { ...scene.files, [`${scene.name}.toml`]: scene.text });
+  setScene(path(), { ...scene.files, [path()]: scene.text });
+  return new Promise((resolve) => waiting.push(resolve));
+}
+
+const path = () => `${scene.name}.toml`;
+/** What waits for the text to be read. */
+const waiting = [];
+
+/** Writes the value of a slider into the text. */
+async function set({ variable, place }, value) {
+  const before = scene.text.split("\n").slice(0, place.line - 1).reduce((sum, line) => sum + line.length + 1, 0);
+  const line = scene.text.slice(before).split("\n", 1)[0];
+  const start = [...line].slice(0, place.column - 1).join("").length;
+  const [number] = /^[-+]?[\d._]+(?:[eE][-+]?\d+)?/.exec(line.slice(start)) ?? [];
+  if (place.file !== path() || number === undefined) throw new Error(`The value of \`${variable}\` is a formula: change it in the text.`);
+  const from = before + start;
+  if (editor) editor.change(from, from + number.length, String(value));
+  else scene.text = scene.text.slice(0, from) + String(value) + scene.text.slice(from + number.length);
+  await read();
 }
 
 function edited(text) {
@@ -50,8 +69,8 @@ function edited(text) {
 
 /** Shows another scene. */
 function show(name, text, files = {}) {
-  Object.assign(scene, { name, text, files });
-  editor?.set(text);
+  Object.assign(scene, { name, text: text.replace(/\r\n?/g, "\n"), files });
+  editor?.set(scene.text);
   say("");
   read();
 }
@@ -131,7 +150,7 @@ async function loadEditor() {
 
 let entries = [];
 function mark() {
-  editor?.mark(entries, `${scene.name}.toml`);
+  editor?.mark(entries, path());
 }
 
 document.querySelector("main").prepend(pane);
@@ -139,7 +158,9 @@ document.body.append(shelf.dialog);
 onRead((state) => {
   ({ diagnostics: entries } = state);
   mark();
+  waiting.splice(0).forEach((resolve) => resolve());
 });
+onSet(set);
 window.addEventListener("hashchange", () => begin());
 window.addEventListener("dragover", (event) => event.preventDefault());
 window.addEventListener("drop", (event) => {

@@ -14,7 +14,7 @@ let worker;
 let generation = 0;
 let asked = 0;
 const waiting = new Map();
-const listeners = { changed: () => {}, lost: () => {}, read: () => {} };
+const listeners = { changed: () => {}, lost: () => {}, read: () => {}, set: () => {} };
 /** The scene that the worker has taken last, or that it will take first. */
 let newest;
 let taken = true;
@@ -85,7 +85,9 @@ function broken(why) {
   clearTimeout(patience);
   taken = true;
   stop();
-  listeners.changed({ current: null, integrator: null, problem: `jabuka has stopped: ${why}\n\nChange the scene to start it again.`, warnings: null, runs: {}, diagnostics: [] });
+  const state = { current: null, integrator: null, problem: `jabuka has stopped: ${why}\n\nChange the scene to start it again.`, warnings: null, runs: {}, diagnostics: [] };
+  listeners.read(state);
+  listeners.changed(state);
 }
 
 /** Gives the worker another scene: its path, and the text or the bytes of each of its files by path. */
@@ -142,6 +144,18 @@ export async function startVariant(variant) {
 
 export function follow(changed, lost) {
   Object.assign(listeners, { changed, lost });
+}
+
+export const MOVED = "";
+
+/** Calls `set` when a slider gives a variable another value: with the slider and the value. */
+export function onSet(set) {
+  listeners.set = set;
+}
+
+/** Resolves when the worker has read the scene with the new value. */
+export async function setVariable(slider, value) {
+  await listeners.set(slider, value);
 }
 
 /** POV-Ray does not run in a browser. The page does not offer it. */

@@ -52,6 +52,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
         aggregates: _,
         scale_bar: _,
         grid: _,
+        variable_sliders: _,
         povray: _,
         output: _,
         name: _,

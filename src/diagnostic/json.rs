@@ -46,7 +46,7 @@ struct Replacement<'a> {
 
 /// A range of a text. Lines and columns count from 1, columns are in characters, and the end is exclusive.
 #[derive(Serialize)]
-struct Range<'a> {
+pub struct Range<'a> {
     file: &'a str,
     line: usize,
     column: usize,
@@ -84,7 +84,7 @@ fn replacement<'a>(edit: &'a Edit, sources: &'a Sources) -> Replacement<'a> {
     Replacement { range: range(edit.span, sources), text: &edit.text }
 }
 
-fn range(span: Span, sources: &Sources) -> Range<'_> {
+pub(super) fn range(span: Span, sources: &Sources) -> Range<'_> {
     let start = sources.start(span);
     let end = sources.end(span);
     Range {

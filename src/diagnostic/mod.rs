@@ -20,7 +20,7 @@ mod visible;
 
 pub use code::Code;
 pub use fix::{Edit, Fix};
-pub use json::Entry;
+pub use json::{Entry, Range};
 pub use nearest::nearest;
 pub use source::{Position, Source, SourceId, Sources, Span};
 pub use visible::{is_invisible, visible, visible_lines, visible_path};

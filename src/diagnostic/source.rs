@@ -107,6 +107,11 @@ impl Sources {
         self.get(span.source).text.get(span.end..).unwrap_or_default()
     }
 
+    /// Returns the range of a span, as editors write it.
+    pub fn range(&self, span: Span) -> super::Range<'_> {
+        super::json::range(span, self)
+    }
+
     /// Returns the text between the beginning of the line in which a span begins, and the span.
     pub fn line_before(&self, span: Span) -> &str {
         let before = self.before(span);

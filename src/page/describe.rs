@@ -6,10 +6,11 @@ use glam::{DQuat, DVec3};
 use serde::Serialize;
 
 use super::run::{Outcome, PageRun, TrailValues};
+use crate::diagnostic::{Range, Sources};
 use crate::font::{Typeface, Weight};
 use crate::physics::{self, Shape};
 use crate::picture::{PlacedLight, Plan, Thing, has_texts, pale};
-use crate::scene::{Body, Color, Look, LookNumber, Scene, Sky, Timeline, Visibility};
+use crate::scene::{Body, Color, Look, LookNumber, Scene, Sky, Timeline, VariableSlider, Visibility};
 use crate::simulate::Bounds;
 use crate::surface::{Appearance, BaseShape, Detail, Piece, SurfacePattern, appearance_of, ground, pieces};
 
@@ -38,6 +39,7 @@ pub(super) struct Description<'a> {
     materials: Vec<Surface>,
     tiles: Surface,
     views: Vec<&'a str>,
+    sliders: Vec<SliderText<'a>>,
     bounds: Option<[[f64; 3]; 2]>,
     /// True if frames contain more to draw than the bodies, such as arrows, springs or labels.
     shows: bool,
@@ -50,6 +52,20 @@ pub(super) struct Description<'a> {
 }
 
 type Color3 = [f64; 3];
+
+/// The slider of a variable.
+#[derive(Serialize)]
+struct SliderText<'a> {
+    variable: &'a str,
+    title: &'a str,
+    unit: Option<&'a str>,
+    value: f64,
+    min: f64,
+    max: f64,
+    step: Option<f64>,
+    /// Where the value stands in the text of the scene.
+    place: Range<'a>,
+}
 
 #[derive(Serialize)]
 struct Method {
@@ -169,6 +185,19 @@ struct Trail {
     every: usize,
 }
 
+fn slider<'a>(slider: &'a VariableSlider, sources: &'a Sources) -> SliderText<'a> {
+    SliderText {
+        variable: &slider.variable,
+        title: slider.title.as_deref().unwrap_or(&slider.variable),
+        unit: slider.unit.as_deref(),
+        value: slider.value,
+        min: slider.range[0],
+        max: slider.range[1],
+        step: slider.step,
+        place: sources.range(slider.span),
+    }
+}
+
 /// Returns the time of each frame, s. Empty if the film shows simulated time evenly.
 fn times(timeline: &Timeline) -> Vec<f64> {
     let frames = if timeline.speed.is_even() { 0 } else { timeline.frames() };
@@ -212,6 +241,11 @@ pub(super) fn describe(run: &PageRun) -> Description<'_> {
             .collect(),
         tiles: surface(&ground(preset), None, dark),
         views: scene.views.iter().map(|view| view.name.as_str()).collect(),
+        sliders: scene
+            .variable_sliders
+            .iter()
+            .map(|slider| self::slider(slider, &scene.warnings.sources))
+            .collect(),
         bounds: run.bounds().map(|Bounds { min, max }| [min.to_array(), max.to_array()]),
         shows: shows(scene, outcome),
         particles: !scene.emitters.is_empty(),

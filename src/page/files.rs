@@ -31,6 +31,7 @@ pub const FILES: &[(&str, &str, &[u8])] = &[
     ("/runs.js", JAVASCRIPT_TYPE, include_bytes!("web/runs.js")),
     ("/scene_plots.js", JAVASCRIPT_TYPE, include_bytes!("web/scene_plots.js")),
     ("/shaders.js", JAVASCRIPT_TYPE, include_bytes!("web/shaders.js")),
+    ("/sliders.js", JAVASCRIPT_TYPE, include_bytes!("web/sliders.js")),
     ("/source.js", JAVASCRIPT_TYPE, include_bytes!("web/source.js")),
     ("/surroundings.js", JAVASCRIPT_TYPE, include_bytes!("web/surroundings.js")),
     ("/texts.js", JAVASCRIPT_TYPE, include_bytes!("web/texts.js")),

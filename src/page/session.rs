@@ -12,7 +12,7 @@ use super::Host;
 use super::panicked::caught;
 use super::run::{PageRun, Progress, RunId, no_room};
 use crate::Scene;
-use crate::diagnostic::Report;
+use crate::diagnostic::{Code, Report};
 use crate::scene::{Options, Override};
 
 /// The data of a page. All pages that show the same scene share a session.
@@ -21,6 +21,8 @@ pub struct Session {
     host: Arc<dyn Host>,
     inner: Mutex<Inner>,
     next: AtomicU64,
+    /// The values that sliders have given to variables. It is locked while the scene is read, so that no older version replaces a newer one.
+    set: Mutex<BTreeMap<String, f64>>,
 }
 
 #[derive(Default)]
@@ -71,7 +73,7 @@ impl Inner {
 impl Session {
     /// Makes a session, without reading the scene yet.
     pub fn new(options: Options, host: Arc<dyn Host>) -> Session {
-        Session { options, host, inner: Mutex::default(), next: AtomicU64::new(1) }
+        Session { options, host, inner: Mutex::default(), next: AtomicU64::new(1), set: Mutex::default() }
     }
 
     /// Returns the current state, for the page.
@@ -107,7 +109,8 @@ impl Session {
                 }
                 inner.generation
             };
-            let scene = self.scene(&self.options_of(&variant))?;
+            let set = self.set.lock().unwrap_or_else(PoisonError::into_inner).clone();
+            let scene = self.scene(&self.options_of(&variant, &set))?;
             let run = self.begin(scene).map_err(|error| no_room(&error))?;
             let mut inner = self.lock();
             let other = inner.variant(&variant);
@@ -126,9 +129,13 @@ impl Session {
         }
     }
 
-    /// Returns the options for reading the scene with another method. An empty method or timestep keeps that of the scene.
-    fn options_of(&self, variant: &Variant) -> Options {
+    /// Returns the options for reading the scene with another method and the values of sliders. An empty method or timestep keeps that of the
+    /// scene.
+    fn options_of(&self, variant: &Variant, set: &BTreeMap<String, f64>) -> Options {
         let mut options = self.options.clone();
+        let values =
+            set.iter().map(|(name, value)| Override::new(format!("variables.{name}.value={value:?}")));
+        options.overrides.extend(values);
         for (key, value) in [("integrator", &variant.integrator), ("step", &variant.step)] {
             if !value.trim().is_empty() {
                 options.overrides.push(Override::new(format!("simulation.{key}={value}")));
@@ -142,10 +149,35 @@ impl Session {
         caught("reading the scene", || self.host.read(options))
     }
 
-    /// Reads the scene, and starts its run if the scene is valid and has changed. Returns the files of the scene, including those that do not
-    /// exist.
+    /// Reads a new version of the scene's files, and starts its run if the scene is valid and has changed. All variables have the values of
+    /// the files. Returns the files of the scene, including those that do not exist.
     pub fn read(&self) -> Vec<PathBuf> {
-        let read = self.scene(&self.options);
+        let mut set = self.set.lock().unwrap_or_else(PoisonError::into_inner);
+        set.clear();
+        self.read_with(&set)
+    }
+
+    /// Gives a variable that has a slider another value, until the files change, and starts the run.
+    ///
+    /// # Errors
+    /// If the scene has no such slider, or the value is not within its range.
+    pub fn set_variable(&self, name: &str, value: f64) -> Result<(), Report> {
+        let mut set = self.set.lock().unwrap_or_else(PoisonError::into_inner);
+        let current = self.lock().current.clone();
+        let sliders = current.iter().flat_map(|run| &run.scene.variable_sliders);
+        let slider = sliders.into_iter().find(|slider| slider.variable == name);
+        if !slider.is_some_and(|slider| (slider.range[0]..=slider.range[1]).contains(&value)) {
+            let message = format!("there is no slider of `{name}` that reaches {value}");
+            return Err(Report::of_error(Code::OutOfRange, message));
+        }
+        set.insert(name.to_owned(), value);
+        self.read_with(&set);
+        Ok(())
+    }
+
+    fn read_with(&self, set: &BTreeMap<String, f64>) -> Vec<PathBuf> {
+        let own = Variant { integrator: String::new(), step: String::new() };
+        let read = self.scene(&self.options_of(&own, set));
         let report = read.as_ref().map_or_else(|report| report, |scene| &scene.warnings);
         let files = report.sources.files().to_vec();
         match read {

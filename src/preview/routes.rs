@@ -6,6 +6,7 @@
 //! | `/api/events` | the [`State`](crate::page::State), whenever it changes |
 //! | `/api/runs/N/poses?from=A&to=B` | the poses of its bodies in some frames; each frame is sent as soon as it is simulated |
 //! | other paths that begin with `/api/runs/` | what [`answer_of_run`] answers |
+//! | `/api/variables` | gives a variable with a slider another value |
 //! | `/api/variants` | starts a run with another integration method |
 //! | `/api/render` | a frame rendered by POV-Ray |
 
@@ -21,6 +22,7 @@ use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use axum::{Json, Router};
+use serde::Deserialize;
 use tokio::sync::mpsc;
 use tokio_stream::wrappers::ReceiverStream;
 use tokio_stream::{Stream, StreamExt as _};
@@ -63,6 +65,7 @@ pub(super) fn router(server: Server) -> Router {
         .route("/api/runs/{id}/{what}", get(of_run))
         .route("/api/variants", post(variant))
         .route("/api/render", post(render))
+        .route("/api/variables", post(variable))
         .route_layer(middleware::from_fn_with_state(server.clone(), with_token));
     let page = FILES.iter().fold(Router::new(), |router, (path, kind, content)| {
         router.route(path, get(move || async move { ([(header::CONTENT_TYPE, *kind)], *content) }))
@@ -203,6 +206,17 @@ async fn poses_of_run(
 
 async fn variant(State(server): State<Server>, Json(variant): Json<Variant>) -> Result<Response, Failed> {
     blocking(move || Ok(Json(server.session.variant(variant)?.progress()).into_response())).await
+}
+
+/// The value that a slider gives to a variable.
+#[derive(Deserialize)]
+struct Setting {
+    variable: String,
+    value: f64,
+}
+
+async fn variable(State(server): State<Server>, Json(setting): Json<Setting>) -> Result<(), Failed> {
+    blocking(move || Ok(server.session.set_variable(&setting.variable, setting.value)?)).await
 }
 
 async fn render(State(server): State<Server>, Json(wanted): Json<Wanted>) -> Result<Response, Failed> {

@@ -110,6 +110,7 @@ mod timeline;
 mod units;
 mod value;
 mod value_map;
+mod variable_slider;
 mod varying;
 mod view;
 
@@ -147,6 +148,7 @@ pub use source::Override;
 pub use speed_curve::SpeedCurve;
 pub use timeline::Timeline;
 pub use value_map::{LookAspect, LookNumber, ValueMap, Visibility};
+pub use variable_slider::VariableSlider;
 pub use varying::{Varying, VaryingPoint};
 
 use crate::diagnostic::Report;
@@ -220,6 +222,8 @@ pub struct Scene {
     pub scale_bar: Option<ScaleBar>,
     /// The grid in the picture. `None` if the scene has no grid.
     pub grid: Option<Grid>,
+    /// The sliders of variables, in the order of the scene.
+    pub variable_sliders: Vec<VariableSlider>,
     /// The POV-Ray code of the scene, and its settings for POV-Ray.
     pub povray: PovRay,
     /// The settings for the images, the scripts and the video.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::read;
 use crate::diagnostic::Span;
-use crate::scene::grammar::scene::scene;
+use crate::scene::grammar::scene::{scene, variable};
 use crate::scene::grammar::{Any, Key, KeySpec, Kind, Rule, TableSpec};
 use crate::scene::source::{Entry, Node, Table};
 use crate::scene::value::{Text, Value};
@@ -203,7 +203,16 @@ impl<'a> View<'a> {
     /// Returns the name and the value of each variable of the scene that has a value.
     pub(super) fn variables(&self) -> impl Iterator<Item = (&'a str, f64)> {
         let entries = self.entries(&scene::VARIABLES.spec).iter();
-        entries.filter_map(|entry| Some((&*entry.name.text, entry.node.as_number()?)))
+        entries.filter_map(|entry| Some((&*entry.name.text, value_of_variable(&entry.node).as_number()?)))
+    }
+
+    /// Returns the name and the table of each variable of the scene that has a slider.
+    pub(super) fn variables_with_sliders(&self) -> impl Iterator<Item = (&'a str, View<'a>)> {
+        let entries = self.entries(&scene::VARIABLES.spec).iter();
+        entries.filter_map(|entry| {
+            let table = entry.node.as_table()?;
+            Some((&*entry.name.text, View { spec: &variable::TABLE, table: Some(table) }))
+        })
     }
 
     /// Returns the tables of all bodies of the scene, including copies.
@@ -224,4 +233,10 @@ impl<'a> View<'a> {
     fn entries(&self, key: &KeySpec) -> &'a [Entry] {
         self.node(key).and_then(Node::as_table).map_or(&[][..], |table| &table.entries)
     }
+}
+
+/// Returns the node of the value of a variable: that of the number itself, or of `value` in the table of a variable with a slider.
+pub(super) fn value_of_variable(variable: &Node) -> &Node {
+    let table = variable.as_table();
+    table.and_then(|table| table.get(variable::VALUE.spec.name)).map_or(variable, |entry| &entry.node)
 }

@@ -119,6 +119,36 @@ await tests({
     assert.equal(await page.locator("#keys").isVisible(), false);
   },
 
+  async a_slider_changes_the_text_and_the_motion(all) {
+    const page = await openBall(all);
+    const text = BALL.replace("[body.ball]", "[variables]\n# ≈ 🎾\nfast = { value = 1, min = 0, max = 3, step = 0.5, unit = 'm/s', title = '<b>speed</b>' }\nslow = { value = 'fast/2', min = 0, max = 3 }\non = { value = 1, min = 0, max = 1, step = 1 }\n\n[body.ball]")
+      .replace("[1, 0, 0]", "['fast*on', 'slow', 0]");
+    await write(page, text);
+    await page.locator("#sliders").waitFor();
+    assert.deepEqual(await page.locator("#sliders-list label span").allTextContents(), ["<b>speed</b>", "slow", "on"]);
+    const text_of = () => page.evaluate(() => window.jabuka.editor.view.state.doc.toString());
+    const end = async (x, y) => {
+      await until(page, (jabuka, [x, y]) => jabuka.settled && jabuka.pose("ball", 25) && Math.hypot(jabuka.pose("ball", 25).location[0] - x, jabuka.pose("ball", 25).location[1] - y) < 1e-9, [x, y]);
+    };
+    await end(1, 3.5);
+    const slider = page.locator("input[name=fast]");
+    await slider.focus();
+    for (let k = 0; k < 3; k++) await page.keyboard.press("ArrowRight");
+    await end(2.5, 4.25);
+    assert.equal(await text_of(), text.replace("value = 1, min = 0, max = 3", "value = 2.5, min = 0, max = 3"));
+    assert.equal(await slider.getAttribute("aria-valuetext"), "2.5 m/s");
+    await page.locator("input[name=on]").uncheck();
+    await end(0, 4.25);
+    // A formula is left alone.
+    await page.locator("input[name=slow]").fill("2");
+    await page.locator("#sliders-said", { hasText: "formula" }).waitFor();
+    assert.match(await text_of(), /slow = \{ value = 'fast\/2'/);
+    // Each change can be taken back.
+    await page.locator(".cm-content").click();
+    await page.keyboard.press("Control+z");
+    await end(2.5, 4.25);
+  },
+
   async a_link_holds_the_scene(all) {
     const page = await openBall(all);
     const text = BALL.replace("[1, 0, 0]", '["2*pi", 0, 0] # ≈ 2π');

@@ -9,7 +9,8 @@ use crate::server::{Scene, Server};
 use crate::support::root;
 
 /// A scene with an unusual name, so that a leak of it is noticed.
-const SECRET: &str = "title = 'Sekret'\nsimulation.duration = 1\n[body.sekret]\nshape.sphere.radius = 1\n";
+const SECRET: &str = "title = 'Sekret'\nsimulation.duration = 1\n[body.sekret]\nshape.sphere.radius = 1\n\
+    [variables]\nsize = { value = 1, min = 0, max = 2 }\n";
 
 /// Starts a server, and waits until it has begun the run of its scene.
 fn server() -> Server {
@@ -46,13 +47,13 @@ fn paths() -> (Asked, Asked) {
         page.split("    (\"/").skip(1).map(|rest| ("GET", format!("/{}", rest.split('"').next().unwrap())));
     let files: Vec<_> = files.collect();
     assert!(api.len() >= 12 && api.iter().all(|(_, path)| path.starts_with("/api/")), "{api:?}");
-    assert!(api.iter().filter(|(method, _)| *method == "POST").count() == 2, "{api:?}");
+    assert!(api.iter().filter(|(method, _)| *method == "POST").count() == 3, "{api:?}");
     assert!(files.len() >= 10, "{files:?}");
     (api, files)
 }
 
-/// The body of a request that asks for another integration method.
-const ORDER: &str = r#"{"integrator":"rk4","step":"","run":"1","frame":0}"#;
+/// The body of a request that asks for another integration method, an image, or another value of a variable.
+const ORDER: &str = r#"{"integrator":"rk4","step":"","run":"1","frame":0,"variable":"size","value":1.5}"#;
 
 fn host(port: u16) -> String {
     format!("Host: 127.0.0.1:{port}\r\nContent-Type: application/json\r\n")

@@ -4,6 +4,7 @@ import { short } from "./math.js";
 import { Painter } from "./painter.js";
 import { drawn, element, open, panel, player, plots, redraw } from "./parts.js";
 import { Run } from "./run.js";
+import { showSliders } from "./sliders.js";
 import { LOST, startVariant } from "./source.js";
 
 /** Handles a new state of the server: the id of the scene's current run, the progress of all runs, and errors. */
@@ -113,6 +114,7 @@ async function show(id, serial) {
   panel.take(run);
   plots.take([run, ...(open.other ? [open.other] : [])], panel.body);
   describe(run);
+  showSliders(run);
   if (open.other) await compare(open.other.id, serial);
 }
 

@@ -42,6 +42,14 @@ export async function startVariant(variant) {
   return (await post("/api/variants", variant)).json();
 }
 
+/** Gives a variable that has a slider another value. */
+export async function setVariable({ variable }, value) {
+  await post("/api/variables", { variable, value });
+}
+
+/** What the page says below sliders that were moved. */
+export const MOVED = "The file keeps its values: write into it what you like.";
+
 /** Renders a frame with POV-Ray, and returns the image. */
 export async function renderFrame(wanted) {
   return (await post("/api/render", wanted)).blob();

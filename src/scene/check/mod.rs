@@ -40,6 +40,7 @@ mod trajectory;
 mod usable;
 mod validate;
 mod value_map;
+mod variable_sliders;
 mod varying;
 
 use std::collections::{HashMap, HashSet};
@@ -387,6 +388,7 @@ fn build(
     let areas = marks::areas(known, context);
     let fields = field::read(&root, &forces, context);
     let arrow_marks = marks::arrow_marks(known, context);
+    let sliders = variable_sliders::read(&root, context);
     let (scale_bar, grid) = (label::scale_bar(&root), label::grid(&root));
     let has_labels = !labels.is_empty()
         || !plots.is_empty()
@@ -418,6 +420,7 @@ fn build(
         arrow_marks,
         scale_bar,
         grid,
+        variable_sliders: sliders,
         color_maps,
         value_maps,
         conditions,

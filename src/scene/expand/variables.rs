@@ -6,7 +6,9 @@ use std::ops::Range;
 use super::{Expander, place};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::expression::{Formula, Scope};
-use crate::scene::source::{Table, Value};
+use crate::scene::grammar::scene::variable;
+use crate::scene::source::{Node, Table, Value};
+use crate::scene::view::value_of_variable;
 
 /// A variable whose value is a formula.
 struct Variable {
@@ -28,6 +30,19 @@ enum State {
     Done,
 }
 
+/// Sets the value of a variable that is a formula.
+fn set_value(variable: &mut Node, value: Option<f64>) {
+    match &mut variable.value {
+        Value::String(_) => variable.value = value.map_or(Value::Invalid, Value::Float),
+        Value::Table(table) => {
+            if let Some(entry) = table.get_mut(variable::VALUE.spec.name) {
+                set_value(&mut entry.node, value);
+            }
+        }
+        _ => {}
+    }
+}
+
 impl Expander<'_> {
     /// Evaluates all variables, makes them available to formulas, and writes their values into the table.
     pub(super) fn variables(&mut self, table: &mut Table) {
@@ -37,9 +52,12 @@ impl Expander<'_> {
             self.visit(start, &mut variables);
         }
         for entry in &mut table.entries {
-            if matches!(entry.node.value, Value::String(_)) {
-                let value = self.scope.value(&entry.name.text).filter(|value| !value.is_nan());
-                entry.node.value = value.map_or(Value::Invalid, Value::Float);
+            let value = self.scope.value(&entry.name.text).filter(|value| !value.is_nan());
+            set_value(&mut entry.node, value);
+            if let Value::Table(slider) = &mut entry.node.value {
+                self.with_key("variables", |this| {
+                    this.with_key(&entry.name.text, |this| this.table(slider, &variable::TABLE));
+                });
             }
         }
     }
@@ -57,8 +75,9 @@ impl Expander<'_> {
                 continue;
             }
             self.variable_spans.insert(name.clone(), entry.name.span);
-            let span = entry.node.span;
-            let value = match &entry.node.value {
+            let node = value_of_variable(&entry.node);
+            let span = node.span;
+            let value = match &node.value {
                 Value::String(text) if self.has_unit(text, span) => None,
                 Value::String(text) => match self.ok_or_report(Formula::parse(text), text, span) {
                     Some(formula) => {
@@ -71,7 +90,7 @@ impl Expander<'_> {
                     None => None,
                 },
                 // The validation reports other errors in a variable's value.
-                _ => entry.node.as_number().filter(|number| number.is_finite()),
+                _ => node.as_number().filter(|number| number.is_finite()),
             };
             if value.is_none() {
                 self.broken.insert(name.clone());

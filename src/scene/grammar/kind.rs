@@ -68,7 +68,7 @@ pub enum Kind {
     Named(&'static TableSpec),
     /// A table with some of the given keys, none of which is required.
     Partial(&'static TableSpec),
-    /// The table `[variables]`: named numbers.
+    /// The table `[variables]`: named numbers, and tables of a number and its slider.
     Variables,
     /// A value of one of several types, which differ in their TOML types.
     Either(&'static [Kind]),

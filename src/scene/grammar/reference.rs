@@ -244,6 +244,13 @@ A key for a whole number needs a formula with a whole value. A division by zero,
 result, is an error at its position; `if`, `and` and `or` evaluate only what they need. `jabuka compile --set variables.r=3`
 gives a variable another value.
 
+A variable can have a slider on the page of `jabuka preview` and of the playground. `value` stands where the number would:
+
+```toml
+[variables]
+angle = { value = 35, min = 5, max = 60, step = 1, unit = \"°\", title = \"how far\" }
+```
+
 Random numbers depend only on the `seed` of the scene and the path of their key, such as `body.ball.location[2]`. They are the
 same on every run and machine, and do not change when you add another body.
 ";

@@ -56,7 +56,7 @@ table! {
     SEED: u32 = KeySpec::new("seed", Integer(0, 4_294_967_295), "The seed of the random numbers in formulas")
         .default_number(0.0)
         .also(&["random_seed"]),
-    VARIABLES: Any = KeySpec::new("variables", Variables, "Named numbers for formulas").default("none").also(&[
+    VARIABLES: Any = KeySpec::new("variables", Variables, "Named numbers for formulas; one with `min` and `max` has a slider on the page of the preview").default("none").also(&[
         "variable",
         "vars",
         "constants",
@@ -110,6 +110,19 @@ table! {
     GRID: Any = labels::GRID,
     POVRAY: Any = KeySpec::new("povray", Table(&povray::TABLE), "Passed to POV-Ray unchanged"),
     OUTPUT: Any = KeySpec::new("output", Table(&output::TABLE), "The images to render").also(&["render"]),
+}
+
+table! {
+    variable: "a variable with a slider", Rule::Any;
+    VALUE: Option<f64> = KeySpec::new("value", ANY, "Its value").required(),
+    MIN: Option<f64> = KeySpec::new("min", ANY, "The lowest value of its slider").required().also(&["minimum", "from"]),
+    MAX: Option<f64> = KeySpec::new("max", ANY, "The highest value of its slider").required().also(&["maximum", "to"]),
+    STEP: Option<f64> = KeySpec::new("step", POSITIVE, "The distance between two values of its slider; with 1 from 0 to 1, the slider is a check box")
+        .default("a hundredth of the range, or less"),
+    UNIT: Option<value::Text> = KeySpec::new("unit", Text, "The unit that stands beside its value").default("none"),
+    TITLE: Option<value::Text> = KeySpec::new("title", Text, "What stands beside its slider")
+        .default("the name of the variable")
+        .also(&["name", "label"]),
 }
 
 table! {

@@ -5,6 +5,7 @@
 
 use serde_json::{Map, Value, json};
 
+use super::scene::variable;
 use super::{Bound, Collection, KeySpec, Kind, Rule, SCENE, TableSpec};
 use crate::scene::MATERIALS;
 use crate::scene::color::NAMES;
@@ -168,7 +169,7 @@ fn kind(kind: &Kind, whole: RequireKeys) -> Map<String, Value> {
         Kind::Variables => object(json!({
             "type": "object",
             "propertyNames": { "pattern": "^[A-Za-z_][A-Za-z0-9_]*$" },
-            "additionalProperties": number(Bound::Any),
+            "additionalProperties": { "anyOf": [number(Bound::Any), table(&variable::TABLE, RequireKeys::Yes)] },
         })),
         Kind::Either(kinds) => {
             let kinds: Vec<_> = kinds.iter().map(|kind| self::kind(kind, whole)).collect();

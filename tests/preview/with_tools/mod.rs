@@ -29,6 +29,7 @@ mod plots;
 mod readme;
 mod rendering;
 mod saving;
+mod sliders;
 mod strangers;
 
 impl Scene {

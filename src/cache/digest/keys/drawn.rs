@@ -82,6 +82,7 @@ pub(super) const KEYS_THAT_DRAW: &[(&str, &[&str])] = &[
     ("a shape in SDL", &["object"]),
     ("a slider", &["look", "arrows"]),
     ("a spring", &["line", "coil", "arrow"]),
+    ("a variable with a slider", &["min", "max", "step", "unit", "title"]),
     ("buoyancy", &["surface", "arrow"]),
     ("the output", &["size", "layout", "transparent", "video_rate", "decimal"]),
     ("ghosts", &["arrows"]),

@@ -1,0 +1,92 @@
+// The sliders of the scene's variables.
+
+import { short } from "./math.js";
+import { element, open, redraw } from "./parts.js";
+import { MOVED, setVariable } from "./source.js";
+
+/** The number of steps of a slider whose scene gives none: at least this many. */
+const STEPS = 100;
+
+/** The newest value of each slider that the source has not taken yet, and the slider that it is of. */
+const waiting = new Map();
+let sending = false;
+/** The sliders that are on the page, as text. */
+let known = "";
+
+/** Returns a round step that divides the range of a slider finely. */
+function stepOf({ min, max, step }) {
+  if (step) return step;
+  const raw = (max - min) / STEPS;
+  const decade = 10 ** Math.floor(Math.log10(raw));
+  return [5, 2, 1].map((part) => part * decade).find((part) => part <= raw * 1.0001) ?? decade;
+}
+
+/** Returns the value without the rounding error of the browser's arithmetic. */
+const rounded = (value) => Number(value.toPrecision(12));
+
+/** Sends the newest values, one after another. A value that has been replaced meanwhile is not sent. */
+async function send() {
+  if (sending) return;
+  sending = true;
+  while (waiting.size) {
+    const [[name, { slider, value }]] = waiting;
+    waiting.delete(name);
+    try {
+      await setVariable(slider, value);
+      element("sliders-said").textContent = MOVED;
+    } catch (error) {
+      element("sliders-said").textContent = error.message;
+    }
+    await new Promise(requestAnimationFrame);
+  }
+  sending = false;
+}
+
+function row(slider) {
+  const [label, title, input, value] = ["label", "span", "input", "output"].map((tag) => document.createElement(tag));
+  const isSwitch = slider.min === 0 && slider.max === 1 && slider.step === 1;
+  title.textContent = slider.title;
+  input.type = isSwitch ? "checkbox" : "range";
+  input.name = slider.variable;
+  const show = (number) => {
+    value.textContent = isSwitch ? "" : `${short(number)}${slider.unit ? ` ${slider.unit}` : ""}`;
+    input.setAttribute("aria-valuetext", value.textContent);
+  };
+  const put = (number) => {
+    if (isSwitch) input.checked = number !== 0;
+    else input.value = number;
+    show(number);
+  };
+  if (!isSwitch) Object.assign(input, { min: slider.min, max: slider.max, step: stepOf(slider) });
+  input.oninput = () => {
+    const number = isSwitch ? Number(input.checked) : rounded(Math.min(slider.max, Math.max(slider.min, Number(input.value))));
+    show(number);
+    // The description of the newest run says where the value stands in the text now.
+    const newest = open.run?.description.sliders.find(({ variable }) => variable === slider.variable) ?? slider;
+    waiting.set(slider.variable, { slider: newest, value: number });
+    send();
+    redraw();
+  };
+  label.append(title, input, value);
+  put(slider.value);
+  return { label, input, put };
+}
+
+let rows = new Map();
+
+/** Shows the sliders of a run. A slider that is being moved keeps its place. */
+export function showSliders({ description: { sliders } }) {
+  const text = JSON.stringify(sliders.map(({ variable, title, unit, min, max, step }) => [variable, title, unit, min, max, step]));
+  if (text !== known) {
+    known = text;
+    rows = new Map(sliders.map((slider) => [slider.variable, row(slider)]));
+    element("sliders-list").replaceChildren(...[...rows.values()].map(({ label }) => label));
+    element("sliders-said").textContent = "";
+    element("sliders").hidden = !sliders.length;
+    return;
+  }
+  for (const { variable, value } of sliders) {
+    const { input, put } = rows.get(variable);
+    if (!waiting.has(variable) && !(input === document.activeElement && input.matches(":active"))) put(value);
+  }
+}
