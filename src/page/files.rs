@@ -16,6 +16,7 @@ pub const FILES: &[(&str, &str, &[u8])] = &[
     ("/icon.svg", "image/svg+xml", include_bytes!("web/icon.svg")),
     ("/main.js", JAVASCRIPT_TYPE, include_bytes!("web/main.js")),
     ("/controls.js", JAVASCRIPT_TYPE, include_bytes!("web/controls.js")),
+    ("/copied_camera.js", JAVASCRIPT_TYPE, include_bytes!("web/copied_camera.js")),
     ("/gl.js", JAVASCRIPT_TYPE, include_bytes!("web/gl.js")),
     ("/hook.js", JAVASCRIPT_TYPE, include_bytes!("web/hook.js")),
     ("/lines.js", JAVASCRIPT_TYPE, include_bytes!("web/lines.js")),

@@ -1,5 +1,6 @@
 // Handles the viewer's input: keys, buttons, pointers.
 
+import { copyCamera } from "./copied_camera.js";
 import { drawn, element, open, panel, player, plots, redraw, viewpoint } from "./parts.js";
 import { sceneCamera } from "./picture.js";
 import { renderThis } from "./render.js";
@@ -23,13 +24,18 @@ function chooseNext(by) {
 function toggleCamera() {
   if (viewpoint.own) viewpoint.own = false;
   else takeCamera();
-  element("camera").textContent = viewpoint.own ? "Own camera" : "Scene camera";
+  sayCamera();
 }
 
 function takeCamera() {
   if (!open.run) return;
   viewpoint.take(sceneCamera(open.run, player.position));
-  element("camera").textContent = "Own camera";
+  sayCamera();
+}
+
+function sayCamera() {
+  element("camera").textContent = viewpoint.own ? "Own camera" : "Scene camera";
+  element("copy-camera").hidden = !viewpoint.own;
 }
 
 function loop(on) {
@@ -72,7 +78,7 @@ const KEYS = [
 ].filter(([, key]) => CAN_RENDER || key !== "R");
 
 function pressed(event) {
-  if (event.ctrlKey || event.metaKey || event.altKey || element("keys").open) return;
+  if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
   if (event.target.isContentEditable || event.target.matches?.("textarea")) return;
   const writes = event.target.matches?.("input:not([type=range]):not([type=checkbox])");
   // In a text field, keys type text. Only the space key stays a command, except in the field for body names.
@@ -150,6 +156,7 @@ export function listen() {
   element("speed").onchange = () => (player.speed = Number(element("speed").value));
   element("loop").onchange = () => loop(element("loop").checked);
   element("camera").onclick = act(toggleCamera);
+  element("copy-camera").onclick = copyCamera;
   element("view").onchange = act(() => (open.view = Number(element("view").value)));
   element("render").onclick = renderThis;
   element("image-close").onclick = act(() => (element("image").hidden = true));

@@ -45,6 +45,21 @@ export class Viewpoint {
     this.aim = add(this.aim, add(times(right, -x * height), times(up, y * height)));
   }
 
+  /**
+   * Returns the camera of a scene that shows what the viewer sees: location and target, m, and horizontal angle, degrees. The picture on the page
+   * has `width` x `height` pixels, and that of the scene, `film`, fits into it.
+   */
+  camera(width, height, [w, h]) {
+    const [tangentX, aspect, wanted] = [this.tangentX(width / height), width / height, w / h];
+    const tangent = wanted > aspect ? tangentX : (tangentX / aspect) * wanted;
+    return { location: this.location, look_at: this.aim, angle: (360 / Math.PI) * Math.atan(tangent) };
+  }
+
+  /** Returns half the width of what the viewer sees at unit distance. */
+  tangentX(aspect) {
+    return this.tangent * Math.max(1, aspect / 1.2);
+  }
+
   get location() {
     const [c, s] = [Math.cos(this.above), Math.sin(this.above)];
     return add(this.aim, times([c * Math.sin(this.around), s, c * Math.cos(this.around)], this.distance));
@@ -76,7 +91,7 @@ export class Viewpoint {
       tangentY = tangentX / aspect;
       projection = orthographic(tangentX * moreX, tangentY * moreY, -reach, reach);
     } else {
-      tangentX = this.own ? this.tangent * Math.max(1, aspect / 1.2) : Math.tan((Math.min(camera.angle, 179) * Math.PI) / 360);
+      tangentX = this.own ? this.tangentX(aspect) : Math.tan((Math.min(camera.angle, 179) * Math.PI) / 360);
       tangentY = tangentX / aspect;
       projection = perspective(tangentX * moreX, tangentY * moreY, near, reach);
     }

@@ -20,6 +20,7 @@ macro_rules! in_the_browser {
     };
 }
 mod bodies;
+mod camera;
 mod colors;
 mod large;
 mod marks;

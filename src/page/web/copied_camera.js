@@ -1,0 +1,33 @@
+// Copies the viewer's camera as a table of the scene language.
+
+import { element, open, viewpoint } from "./parts.js";
+
+/** The number of digits of the numbers: a thousandth of a pixel cannot be seen. */
+const DIGITS = 7;
+
+const written = (number) => `${Number(number.toPrecision(DIGITS))}`;
+
+/** Returns the table `[camera]` that shows what the viewer sees. */
+export function cameraText() {
+  const canvas = element("picture");
+  const { location, look_at, angle } = viewpoint.camera(canvas.clientWidth, canvas.clientHeight, open.run.description.size);
+  // A coordinate that is only a rounding error from 0 is 0.
+  const least = 1e-9 * viewpoint.distance;
+  const point = (p) => `[${p.map((x) => written(Math.abs(x) < least ? 0 : x)).join(", ")}]`;
+  return `[camera]\nlocation = ${point(location)}\nlook_at = ${point(look_at)}\nangle = ${written(angle)}\n`;
+}
+
+/** Copies the table, and shows it. */
+export async function copyCamera() {
+  if (!open.run || !viewpoint.own) return;
+  const text = cameraText();
+  element("camera-text").textContent = text;
+  let copied = true;
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    copied = false;
+  }
+  element("camera-said").textContent = copied ? "This is on the clipboard. Paste it into the scene, in place of its camera." : "Copy this into the scene, in place of its camera.";
+  element("camera-dialog").showModal();
+}
