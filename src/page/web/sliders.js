@@ -9,6 +9,8 @@ const STEPS = 100;
 
 /** The newest value of each slider that the source has not taken yet, and the slider that it is of. */
 const waiting = new Map();
+/** The values that runs on their way will have. A run with another value is an older one, and moves no slider. */
+const expected = new Map();
 let sending = false;
 /** The sliders that are on the page, as text. */
 let known = "";
@@ -35,6 +37,7 @@ async function send() {
       await setVariable(slider, value);
       element("sliders-said").textContent = MOVED;
     } catch (error) {
+      expected.delete(name);
       element("sliders-said").textContent = error.message;
     }
     await new Promise(requestAnimationFrame);
@@ -64,21 +67,23 @@ function row(slider) {
     // The description of the newest run says where the value stands in the text now.
     const newest = open.run?.description.sliders.find(({ variable }) => variable === slider.variable) ?? slider;
     waiting.set(slider.variable, { slider: newest, value: number });
+    expected.set(slider.variable, number);
     send();
     redraw();
   };
   label.append(title, input, value);
   put(slider.value);
-  return { label, input, put };
+  return { label, put };
 }
 
 let rows = new Map();
 
-/** Shows the sliders of a run. A slider that is being moved keeps its place. */
+/** Shows the sliders of a run. */
 export function showSliders({ description: { sliders } }) {
   const text = JSON.stringify(sliders.map(({ variable, title, unit, min, max, step }) => [variable, title, unit, min, max, step]));
   if (text !== known) {
     known = text;
+    expected.clear();
     rows = new Map(sliders.map((slider) => [slider.variable, row(slider)]));
     element("sliders-list").replaceChildren(...[...rows.values()].map(({ label }) => label));
     element("sliders-said").textContent = "";
@@ -86,7 +91,8 @@ export function showSliders({ description: { sliders } }) {
     return;
   }
   for (const { variable, value } of sliders) {
-    const { input, put } = rows.get(variable);
-    if (!waiting.has(variable) && !(input === document.activeElement && input.matches(":active"))) put(value);
+    if (expected.has(variable) && expected.get(variable) !== value) continue;
+    expected.delete(variable);
+    rows.get(variable).put(value);
   }
 }
