@@ -1,7 +1,7 @@
 // The editor for the text of the scene. It is loaded after the first picture, because it is large.
 
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
-import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap, isolateHistory } from "@codemirror/commands";
 import { HighlightStyle, StreamLanguage, bracketMatching, syntaxHighlighting } from "@codemirror/language";
 import { toml } from "@codemirror/legacy-modes/mode/toml";
 import { lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
@@ -50,9 +50,9 @@ export function makeEditor(parent, text, changed) {
     set(text) {
       view.setState(EditorState.create({ doc: text, extensions }));
     },
-    /** Changes the text between two offsets, as a step that can be undone. */
-    change(from, to, insert) {
-      view.dispatch({ changes: { from, to, insert } });
+    /** Changes the text between two offsets. A change that begins a step is undone apart from the changes before it. */
+    change(from, to, insert, begins) {
+      view.dispatch({ changes: { from, to, insert }, annotations: begins ? isolateHistory.of("before") : [] });
     },
     /** Shows the errors and warnings of jabuka that lie in the file of this name. */
     mark(entries, name) {

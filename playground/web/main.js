@@ -10,6 +10,8 @@ import { onRead, onSet, setScene } from "./source.js";
 const FIRST = "newtons_cradle";
 /** The time without a further key after which the text is read, ms. */
 const PAUSE = 120;
+/** The time after which a slider that is moved again begins another step that can be undone, ms. */
+const STEP_TIME = 800;
 
 /** The scene: its name, its text, and the bytes of its other files by path. */
 const scene = { name: "", text: "", files: {} };
@@ -48,6 +50,9 @@ const path = () => `${scene.name}.toml`;
 /** What waits for the text to be read. */
 const waiting = [];
 
+/** The slider that was moved last, and when. */
+let last = {};
+
 /** Writes the value of a slider into the text. */
 async function set({ variable, place }, value) {
   const before = scene.text.split("\n").slice(0, place.line - 1).reduce((sum, line) => sum + line.length + 1, 0);
@@ -56,7 +61,10 @@ async function set({ variable, place }, value) {
   const [number] = /^[-+]?[\d._]+(?:[eE][-+]?\d+)?/.exec(line.slice(start)) ?? [];
   if (place.file !== path() || number === undefined) throw new Error(`The value of \`${variable}\` is a formula: change it in the text.`);
   const from = before + start;
-  if (editor) editor.change(from, from + number.length, String(value));
+  // The values that a slider passes on its way are one step.
+  const begins = last.variable !== variable || performance.now() - last.time > STEP_TIME;
+  last = { variable, time: performance.now() };
+  if (editor) editor.change(from, from + number.length, String(value), begins);
   else scene.text = scene.text.slice(0, from) + String(value) + scene.text.slice(from + number.length);
   await read();
 }

@@ -19,7 +19,7 @@ fn the_examples_of_the_page_of_keys_are_scenes() {
     let page = jabuka::scene::grammar::reference();
     let examples: Vec<&str> =
         page.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
-    assert_eq!(examples.len(), 15);
+    assert_eq!(examples.len(), 16);
     for example in examples {
         let scene = jabuka::Scene::parse(example).unwrap_or_else(|report| panic!("{report}"));
         assert!(scene.warnings.diagnostics.is_empty(), "{}", scene.warnings);

@@ -25,7 +25,7 @@ use jabuka::simulate::Selection;
 use proptest::prelude::*;
 
 /// The public functions with a text argument that are tried here, as `file: name`.
-const TRIED: [&str; 53] = [
+const TRIED: [&str; 54] = [
     "catalog.rs: named",
     "diagnostic/code.rs: named",
     "diagnostic/mod.rs: at",
@@ -54,6 +54,7 @@ const TRIED: [&str; 53] = [
     "lettering.rs: without_marks",
     "page/answers.rs: answer",
     "page/answers.rs: answer_of_run",
+    "page/session.rs: set_variable",
     "report/plot/chart.rs: of_charts",
     "report/plot/mod.rs: of",
     "report/text.rs: to_text",
@@ -270,6 +271,7 @@ proptest! {
         for path in [text.clone(), format!("/api/runs/{text}"), format!("/api/runs/1/{text}")] {
             let _ = answer(&SESSION, &path, &Frames::default());
         }
+        prop_assert!(SESSION.set_variable(&text, 1.0).is_err());
 
         let _ = Scene::parse(&text).map_err(|report| report.to_text(false));
         let options = Options { overrides: vec![Override::new(&other)], trust: true, ..Options::default() };

@@ -44,7 +44,9 @@ fn tables() -> Vec<&'static TableSpec> {
     }
     fn add_inside(kind: &'static Kind, found: &mut Vec<&'static TableSpec>) {
         match kind {
-            Kind::Table(table) | Kind::Named(table) | Kind::Partial(table) => add(table, found),
+            Kind::Table(table) | Kind::Named(table) | Kind::Partial(table) | Kind::Variables(table) => {
+                add(table, found);
+            }
             Kind::Either(kinds) => kinds.iter().for_each(|kind| add_inside(kind, found)),
             Kind::List { of, .. } => add_inside(of, found),
             _ => {}

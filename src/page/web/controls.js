@@ -80,6 +80,8 @@ const KEYS = [
 function pressed(event) {
   if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
   if (event.target.isContentEditable || event.target.matches?.("textarea")) return;
+  // These keys move the slider of a variable.
+  if (event.target.closest?.("#sliders") && /^( |Arrow.*|Home|End|Page.*)$/.test(event.key)) return;
   const writes = event.target.matches?.("input:not([type=range]):not([type=checkbox])");
   // In a text field, keys type text. Only the space key stays a command, except in the field for body names.
   if (writes && (event.key !== " " || event.target === element("body-name"))) return;

@@ -3,14 +3,10 @@
 use super::corrections::Owner;
 use super::{Context, corrections, read, sdl, suggest};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::scene::grammar::scene::variable;
 use crate::scene::grammar::{Bound, Collection, KeySpec, Kind, Rule, SCENE, TableSpec, quoted};
 use crate::scene::sdl::Where;
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::{Include, MATERIALS};
-
-/// The kind of a variable that has a slider.
-static WITH_SLIDER: Kind = Kind::Table(&variable::TABLE);
 
 /// Reports every unknown key, missing key and wrong value in a scene.
 pub(super) fn validate(root: &Table, context: &mut Context<'_>) {
@@ -235,14 +231,22 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
                 context.diagnostics.push(read::wrong_type(node, kind).help(corrections::known_keys(spec)));
             }
         },
-        Kind::Variables => match node.as_table() {
+        Kind::Variables(spec) => match node.as_table() {
             Some(inner) => {
+                let path = inner_path(entry, path);
                 for entry in &inner.entries {
-                    let kind = match entry.node.as_table() {
-                        Some(_) => &WITH_SLIDER,
-                        None => &Kind::Number(Bound::Any),
-                    };
-                    value(&entry.node, kind, Some(entry), path, context);
+                    match entry.node.as_table() {
+                        Some(variable) => {
+                            table(
+                                variable,
+                                spec,
+                                Some(entry.name.span),
+                                &inner_path(Some(entry), &path),
+                                context,
+                            );
+                        }
+                        None => value(&entry.node, &Kind::Number(Bound::Any), None, &path, context),
+                    }
                 }
             }
             None => context.diagnostics.push(read::wrong_type(node, kind)),

@@ -219,7 +219,7 @@ impl Includer<'_> {
                 }
             }
             Some(Kind::Partial(spec)) => self.conflicts(first, second, own, spec),
-            Some(Kind::Variables) => {
+            Some(Kind::Variables(_)) => {
                 let (second, own) = (by_name(second), by_name(own));
                 for entry in &first.entries {
                     let name = &*entry.name.text;

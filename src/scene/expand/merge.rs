@@ -42,7 +42,7 @@ fn merge_values(own: &mut Node, base: &Node, kind: &'static Kind) {
                 }
             });
         }
-        Kind::Variables => merge_entries(own, base.entries.to_vec(), |_, _, _| {}),
+        Kind::Variables(_) => merge_entries(own, base.entries.to_vec(), |_, _, _| {}),
         Kind::Partial(spec) => merge(own, base, spec),
         kind => {
             if let Some(spec) = kind.table() {

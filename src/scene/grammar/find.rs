@@ -130,7 +130,7 @@ fn keys_of(path: &str, (table, is_named): Inside) -> Vec<FoundKey> {
 fn tables(kind: &'static Kind) -> Vec<Inside> {
     match kind {
         Kind::Table(table) | Kind::Partial(table) => vec![(table, false)],
-        Kind::Named(table) => vec![(table, true)],
+        Kind::Named(table) | Kind::Variables(table) => vec![(table, true)],
         Kind::Either(kinds) => kinds.iter().flat_map(tables).collect(),
         Kind::List { of, .. } => tables(of),
         _ => Vec::new(),

@@ -68,8 +68,8 @@ pub enum Kind {
     Named(&'static TableSpec),
     /// A table with some of the given keys, none of which is required.
     Partial(&'static TableSpec),
-    /// The table `[variables]`: named numbers, and tables of a number and its slider.
-    Variables,
+    /// The table `[variables]`: named numbers, or tables with the given keys, each a number and its slider.
+    Variables(&'static TableSpec),
     /// A value of one of several types, which differ in their TOML types.
     Either(&'static [Kind]),
 }
@@ -213,7 +213,7 @@ impl Kind {
                 matches!(value, Value::Array(_))
             }
             Kind::Color | Kind::Colors => matches!(value, Value::Array(_) | Value::String(_)),
-            Kind::Table(_) | Kind::Named(_) | Kind::Partial(_) | Kind::Variables => {
+            Kind::Table(_) | Kind::Named(_) | Kind::Partial(_) | Kind::Variables(_) => {
                 matches!(value, Value::Table(_))
             }
             Kind::Either(kinds) => kinds.iter().any(|kind| kind.takes(value)),
@@ -274,7 +274,7 @@ impl Kind {
             Kind::Table(table) => format!("a table with the keys of {}", table.noun),
             Kind::Named(table) => format!("tables with names, each {}", table.noun),
             Kind::Partial(table) => format!("a table with keys of {}", table.noun),
-            Kind::Variables => "a table of numbers with names".to_owned(),
+            Kind::Variables(_) => "a table of numbers with names".to_owned(),
             Kind::Either(kinds) => kinds.iter().map(Kind::in_words).collect::<Vec<_>>().join(" or "),
         }
     }

@@ -163,7 +163,7 @@ mod tests {
     fn visit(table: &'static TableSpec, see: &mut impl FnMut(&'static TableSpec)) {
         fn inside(kind: &'static Kind, see: &mut impl FnMut(&'static TableSpec)) {
             match kind {
-                Kind::Table(table) | Kind::Named(table) => visit(table, see),
+                Kind::Table(table) | Kind::Named(table) | Kind::Variables(table) => visit(table, see),
                 Kind::Either(kinds) => kinds.iter().for_each(|kind| inside(kind, see)),
                 Kind::List { of, .. } => inside(of, see),
                 _ => {}

@@ -683,7 +683,7 @@ impl Page {
     fn inner(&mut self, path: &str, name: &str, kind: &'static Kind) {
         match kind {
             Kind::Table(table) if self.title(table).is_some() => {}
-            Kind::Named(table) => self.section(&format!("[{name}.NAME]"), table),
+            Kind::Named(table) | Kind::Variables(table) => self.section(&format!("[{name}.NAME]"), table),
             Kind::Table(table) if path.is_empty() => self.section(&format!("[{name}]"), table),
             Kind::Table(table) => {
                 let dot = if path.ends_with(']') { " " } else { "." };

@@ -56,7 +56,7 @@ table! {
     SEED: u32 = KeySpec::new("seed", Integer(0, 4_294_967_295), "The seed of the random numbers in formulas")
         .default_number(0.0)
         .also(&["random_seed"]),
-    VARIABLES: Any = KeySpec::new("variables", Variables, "Named numbers for formulas; one with `min` and `max` has a slider on the page of the preview").default("none").also(&[
+    VARIABLES: Any = KeySpec::new("variables", Variables(&variable::TABLE), "Named numbers for formulas; one with `min` and `max` has a slider on the page of the preview").default("none").also(&[
         "variable",
         "vars",
         "constants",

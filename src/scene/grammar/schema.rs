@@ -5,7 +5,6 @@
 
 use serde_json::{Map, Value, json};
 
-use super::scene::variable;
 use super::{Bound, Collection, KeySpec, Kind, Rule, SCENE, TableSpec};
 use crate::scene::MATERIALS;
 use crate::scene::color::NAMES;
@@ -166,10 +165,10 @@ fn kind(kind: &Kind, whole: RequireKeys) -> Map<String, Value> {
         Kind::Table(spec) => table(spec, whole),
         Kind::Partial(spec) => table(spec, RequireKeys::No),
         Kind::Named(spec) => object(json!({ "type": "object", "additionalProperties": table(spec, whole) })),
-        Kind::Variables => object(json!({
+        Kind::Variables(spec) => object(json!({
             "type": "object",
             "propertyNames": { "pattern": "^[A-Za-z_][A-Za-z0-9_]*$" },
-            "additionalProperties": { "anyOf": [number(Bound::Any), table(&variable::TABLE, RequireKeys::Yes)] },
+            "additionalProperties": { "anyOf": [number(Bound::Any), table(spec, RequireKeys::Yes)] },
         })),
         Kind::Either(kinds) => {
             let kinds: Vec<_> = kinds.iter().map(|kind| self::kind(kind, whole)).collect();

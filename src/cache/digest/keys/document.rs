@@ -88,7 +88,7 @@ impl Document {
             (Kind::Table(spec) | Kind::Partial(spec), Value::Table(table)) => {
                 self.add_table(spec, table, way, ids, places);
             }
-            (Kind::Named(spec), Value::Table(table)) => {
+            (Kind::Named(spec) | Kind::Variables(spec), Value::Table(table)) => {
                 for Entry { name, node } in &table.entries {
                     let way = [way, &[Step::Key(Arc::clone(&name.text))]].concat();
                     if let Some(table) = node.as_table() {

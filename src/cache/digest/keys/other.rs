@@ -50,7 +50,7 @@ fn of_kind(kind: &Kind, node: &Node, document: &Document) -> Vec<String> {
         Kind::List { of, .. } => of_items(node, document, of),
         Kind::Asset | Kind::File => files(text.unwrap_or_default(), document),
         Kind::Reference(collection) => names(*collection, document),
-        Kind::Variables => {
+        Kind::Variables(_) => {
             let Value::Table(table) = &node.value else { return Vec::new() };
             let entries = table.entries.iter().map(|entry| (Step::Key(entry.name.text.clone()), &entry.node));
             entries.flat_map(|(step, value)| exchanged(node, &step, numbers(Bound::Any, value))).collect()
