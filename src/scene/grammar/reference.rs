@@ -248,7 +248,11 @@ A variable can have a slider on the page of `jabuka preview` and of the playgrou
 
 ```toml
 [variables]
-angle = { value = 35, min = 5, max = 60, step = 1, unit = \"°\", title = \"how far\" }
+angle = { value = 35, min = 5, max = 60, step = 1, unit = \"°\", title = \"upwards\" }
+
+[body.ball]
+shape.sphere.radius = 0.2
+velocity = [\"5*cos(rad(angle))\", \"5*sin(rad(angle))\", 0]
 ```
 
 Random numbers depend only on the `seed` of the scene and the path of their key, such as `body.ball.location[2]`. They are the
