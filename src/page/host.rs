@@ -17,7 +17,7 @@ pub trait Host: Send + Sync {
     /// If the scene is invalid, or one of its files cannot be read.
     fn read(&self, options: &Options) -> Result<Scene, Report>;
 
-    /// Begins to advance a run, by calling [`PageRun::advance`] until the run has ended. A run that takes long continues after this function
+    /// Begins to advance a run, by calling [`RunWork::advance`](super::RunWork::advance) until the run has ended. A run that takes long continues after this function
     /// has returned.
     ///
     /// # Errors
