@@ -3,7 +3,7 @@
 //! The worker's script (`web/worker.js`) puts the files of a scene into a virtual folder, and calls the functions of this module. A request
 //! and its answer are bytes in the memory of the module:
 //!
-//! 1. [`room`] returns the address where the script writes the request: JSON with the fields of [`Request`].
+//! 1. [`room`] returns the address where the script writes the request: JSON with the fields of `Request`.
 //! 2. [`ask`] answers it, and returns a status of HTTP.
 //! 3. [`answer`] and [`answer_length`] tell where the answer is. It stays there until the next request.
 //!

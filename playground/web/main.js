@@ -149,6 +149,17 @@ async function takeFiles(list) {
   read();
 }
 
+/** The parts of the page that an address may choose, and their elements. The picture is always there. */
+const PARTS = { text: "#editor", player: "#controls", plots: "#plots", values: "#panel", title: "header" };
+
+/** Hides the parts of the page that the address does not name, if it names any: `?show=player,values`. For pages that show this one in a frame. */
+function showParts() {
+  const shown = new URLSearchParams(location.search).get("show")?.split(",");
+  if (!shown) return;
+  for (const [name, selector] of Object.entries(PARTS)) document.querySelector(selector).hidden = !shown.includes(name);
+  document.querySelector("footer").hidden = !shown.includes("player") && !shown.includes("plots");
+}
+
 async function loadEditor() {
   const { makeEditor } = await import("./editor.js");
   editor = makeEditor(field, scene.text, edited);
@@ -163,6 +174,7 @@ function mark() {
 
 document.querySelector("main").prepend(pane);
 document.body.append(shelf.dialog);
+showParts();
 onRead((state) => {
   ({ diagnostics: entries } = state);
   mark();
@@ -176,5 +188,5 @@ window.addEventListener("drop", (event) => {
   event.preventDefault();
   takeFiles(event.dataTransfer.files);
 });
-begin().then(() => window.jabuka.whenDrawn(() => element("nothing").hidden || element("problem").hidden === false)).then(loadEditor);
+begin().then(() => window.jabuka.whenDrawn(() => element("nothing").hidden || element("problem").hidden === false)).then(() => pane.hidden || loadEditor());
 if (location.protocol.startsWith("http")) navigator.serviceWorker?.register("service.js");

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::process::Command;
 
 use crate::site::module;
-use crate::support::{compile, root, scene, stderr};
+use crate::support::{compile, jabuka, root, scene, stderr};
 
 /// Scenes of all kinds that take a few seconds together: free bodies, joints, impacts, piles, gravitation, fields, particles, meshes, several
 /// views, motion blur.
@@ -48,4 +48,49 @@ fn scripts_have_the_bytes_of_the_program() {
     assert_eq!(differing.collect::<Vec<_>>(), []);
     assert_eq!(made.len(), expected.len());
     assert!(made.len() > 1000, "{}", made.len());
+}
+
+/// Reads all scenes with mistakes in one module. It must survive each of them, and say the errors of the program at their places.
+#[test]
+fn mistakes_are_told_as_by_the_program() {
+    let folder = root().join("tests/bad");
+    let mut scenes: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    // Scenes that name other files need the whole folder.
+    scenes.retain(|path| {
+        let is_scene = path.extension().is_some_and(|end| end == "toml");
+        is_scene
+            && !std::fs::read_to_string(path).is_ok_and(|text| {
+                ["include", "file", "table", ".inc", "font"].iter().any(|word| text.contains(word))
+            })
+    });
+    scenes.sort();
+    let output = Command::new("node")
+        .arg(root().join("tests/playground/bad.mjs"))
+        .arg(module())
+        .args(&scenes)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let said: BTreeMap<String, serde_json::Value> = serde_json::from_slice(&output.stdout).unwrap();
+    let mut compared = 0;
+    for scene in &scenes {
+        let name = scene.file_name().unwrap().to_str().unwrap();
+        let checked =
+            jabuka().current_dir(&folder).args(["check", "--format", "json", name]).output().unwrap();
+        let expected: serde_json::Value = serde_json::from_slice(&checked.stdout).unwrap_or_default();
+        let (Some(expected), Some(found)) = (expected.as_array(), said[name]["diagnostics"].as_array())
+        else {
+            continue;
+        };
+        // Warnings about runs come only from simulated scenes, and errors of simulations are the run's.
+        for diagnostic in expected.iter().filter(|diagnostic| diagnostic["severity"] == "error") {
+            let mut diagnostic = diagnostic.clone();
+            diagnostic.as_object_mut().unwrap().remove("scene");
+            if !found.is_empty() {
+                assert!(found.contains(&diagnostic), "{name}: {diagnostic:#}\n{found:#?}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(scenes.len() > 100 && compared > 300, "{} scenes, {compared} errors", scenes.len());
 }

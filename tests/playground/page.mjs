@@ -255,6 +255,20 @@ await tests({
     for (const name of own) assert.ok(Buffer.from(files[name]).equals(readFileSync(join(folder, name))), name);
   },
 
+  async an_address_chooses_the_parts_of_the_page({ address, keep, browser }) {
+    const page = keep(await newPage(browser));
+    await page.goto(`${address}?show=player,values#gallery=newtons_cradle`);
+    await until(page, (jabuka) => jabuka?.drawn.count > 0 && jabuka.settled);
+    const visible = (id) => page.locator(id).isVisible();
+    assert.deepEqual(await Promise.all(["#picture", "#controls", "#panel", "#editor", "#plots", "header"].map(visible)), [true, true, true, false, false, false]);
+    // Without an editor, a slider changes the text all the same.
+    const run = await page.evaluate(() => window.jabuka.run);
+    await page.locator("input[name=lifted]").fill("3");
+    await until(page, (jabuka, run) => jabuka.run !== run && jabuka.settled, run);
+    const places = await page.evaluate(() => ["ball[0]", "ball[2]", "ball[3]"].map((name) => window.jabuka.pose(name, 0).location[1]));
+    assert.ok(places[0] > places[2] + 0.05 && places[1] > places[2] + 0.05, `${places}`);
+  },
+
   async it_works_without_a_network_after_the_first_visit({ address, keep, browser }) {
     const page = keep(await newPage(browser));
     await open(page, address);

@@ -28,6 +28,7 @@ in_the_browser!(
     a_scene_that_takes_for_ever_gives_way_to_the_next,
     every_scene_of_the_shelf_opens,
     files_that_are_dropped_lie_beside_the_scene,
+    an_address_chooses_the_parts_of_the_page,
     it_works_without_a_network_after_the_first_visit,
     small_windows_show_all_of_it,
     accessibility_rules_hold,
