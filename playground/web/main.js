@@ -122,7 +122,7 @@ async function copyLink() {
 
 async function takeScripts() {
   const { run } = open;
-  if (!run?.description.stage) return say("The scripts are there as soon as the run is finished.");
+  if (!run?.description.settled) return say("The scripts are there as soon as the run is finished.");
   const { save, scriptsOf } = await import("./zip.js");
   const [name, { views }] = [scene.name, run.description];
   scripts.disabled = true;

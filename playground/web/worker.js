@@ -6,14 +6,16 @@ import { Jabuka } from "./module.js";
 const PIECE = 12;
 /** The smallest time between two messages about the progress of a run, ms. */
 const INTERVAL = 40;
-/** The time that a new run has to finish before the page shows it unfinished, ms. */
-const AT_ONCE = 150;
+/** The time that a new run has to finish before the page shows it unfinished, ms: for another scene, and for the same one. */
+const [AT_ONCE, AGAIN] = [150, 25];
 
 /** What the module has said last, in case it ends. */
 const said = [];
 let jabuka;
 let told = 0;
 let serial;
+/** The path of the scene that was read last. */
+let last;
 let busy = false;
 let ended = false;
 const early = [];
@@ -51,6 +53,8 @@ turn.port1.onmessage = () => {
 function read({ scene, files, serial: number }) {
   self.postMessage({ began: number });
   serial = number;
+  const patience = scene === last ? AGAIN : AT_ONCE;
+  last = scene;
   said.length = 0;
   jabuka.put(files);
   jabuka.read(scene);
@@ -58,7 +62,7 @@ function read({ scene, files, serial: number }) {
   let more;
   do {
     more = jabuka.advance(PIECE);
-  } while (more && performance.now() - begun < AT_ONCE);
+  } while (more && performance.now() - begun < patience);
   tell();
   if (more) goOn();
 }

@@ -47,7 +47,9 @@ pub(super) struct Description<'a> {
     particles: bool,
     /// The sizes of the files of the fonts that labels have of their own, bytes.
     fonts: Vec<usize>,
-    /// The surroundings of the bodies: camera, lights, ground. `None` until the run is finished.
+    /// True if the run is finished. Until then, its surroundings are those of the run before it, and no results are known.
+    settled: bool,
+    /// The surroundings of the bodies: camera, lights, ground. `None` while they are unknown.
     stage: Option<Stage>,
 }
 
@@ -208,7 +210,7 @@ fn times(timeline: &Timeline) -> Vec<f64> {
 pub(super) fn describe(run: &PageRun) -> Description<'_> {
     let scene: &Scene = &run.scene;
     let (dark, preset) = (scene.environment.is_dark(), scene.environment.preset);
-    let (simulation, outcome) = (&scene.simulation, run.outcome().and_then(Result::ok));
+    let (simulation, outcome) = (&scene.simulation, run.look());
     Description {
         id: run.id.to_string(),
         name: &scene.name,
@@ -250,6 +252,7 @@ pub(super) fn describe(run: &PageRun) -> Description<'_> {
         shows: shows(scene, outcome),
         particles: !scene.emitters.is_empty(),
         fonts: fonts(scene).map(|font| font.font(Weight::Regular).bytes().len()).collect(),
+        settled: run.outcome().is_some_and(|outcome| outcome.is_ok()),
         stage: outcome.map(|outcome| stage(run, outcome)),
     }
 }

@@ -5,6 +5,7 @@
 //! | the last run without errors, and the current errors of the scene | `session` |
 //! | what a session needs from the program around it | `host` |
 //! | a run that is simulated piece by piece | `run` |
+//! | how an unfinished run looks | `provisional` |
 //! | a panic, as an error on the page | `panicked` |
 //! | the answers to the page's requests | `answers`, `failed` |
 //! | the data of a run for the page | `describe`, `shown`, `swarms`, `samples` |
@@ -44,6 +45,7 @@ mod files;
 mod host;
 mod numbers;
 mod panicked;
+mod provisional;
 mod run;
 mod samples;
 mod scripts;

@@ -11,7 +11,7 @@ use std::time::Instant;
 use serde::Serialize;
 
 use super::panicked::caught;
-use super::{Host, swarms};
+use super::{Host, provisional, swarms};
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::physics::PairCounter;
 use crate::picture::Plan;
@@ -38,6 +38,8 @@ pub struct PageRun {
     past: Mutex<PastOfRun>,
     pub(super) swarms: swarms::KeptSwarms,
     outcome: OnceLock<Result<Outcome, Report>>,
+    /// How the run looks until its outcome is known: as the run before it. `None` if that was another scene.
+    provisional: Option<Outcome>,
 }
 
 /// The earlier states of a run that later frames show: ghosts, swept areas, and the positions of lagging cameras. It also holds the box around the
@@ -162,8 +164,14 @@ fn pause() -> Pause {
 }
 
 impl PageRun {
-    /// Makes a run of which nothing is simulated yet.
-    pub(super) fn new(id: RunId, scene: Arc<Scene>, host: Arc<dyn Host>) -> Arc<PageRun> {
+    /// Makes a run of which nothing is simulated yet. `before` is the run that the page shows now.
+    pub(super) fn new(
+        id: RunId,
+        scene: Arc<Scene>,
+        host: Arc<dyn Host>,
+        before: Option<&PageRun>,
+    ) -> Arc<PageRun> {
+        let provisional = before.and_then(|before| provisional::outcome(&scene, before));
         let moments = Moments::of(&scene);
         let empty = Recording::new(Counts::of(&scene), Box::<MemoryStore>::default());
         Arc::new(PageRun {
@@ -176,13 +184,14 @@ impl PageRun {
             past: Mutex::default(),
             swarms: swarms::KeptSwarms::default(),
             outcome: OnceLock::new(),
+            provisional,
         })
     }
 
     /// Simulates a whole run.
     #[cfg(test)]
     pub(super) fn whole(scene: Scene) -> Arc<PageRun> {
-        let run = PageRun::new(1, Arc::new(scene), Arc::new(super::host::NoHost));
+        let run = PageRun::new(1, Arc::new(scene), Arc::new(super::host::NoHost), None);
         let mut work = run.work();
         while work.advance() {}
         run
@@ -212,6 +221,14 @@ impl PageRun {
     /// Returns the results after the last frame, or the errors that ended the run early. `None` while the run is being simulated.
     pub fn outcome(&self) -> Option<Result<&Outcome, &Report>> {
         self.outcome.get().map(Result::as_ref)
+    }
+
+    /// Returns how the run looks: by its own results, or by those of the run before it until its own are known. `None` if neither is known.
+    pub fn look(&self) -> Option<&Outcome> {
+        match self.outcome() {
+            Some(outcome) => outcome.ok(),
+            None => self.provisional.as_ref(),
+        }
     }
 
     /// Returns the progress of the run.

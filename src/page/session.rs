@@ -233,7 +233,8 @@ impl Session {
 
     fn begin(&self, scene: Scene) -> io::Result<Arc<PageRun>> {
         let id = self.next.fetch_add(1, Ordering::Relaxed);
-        let run = PageRun::new(id, Arc::new(scene), Arc::clone(&self.host));
+        let before = self.lock().current.clone();
+        let run = PageRun::new(id, Arc::new(scene), Arc::clone(&self.host), before.as_deref());
         self.host.start(Arc::clone(&run))?;
         Ok(run)
     }

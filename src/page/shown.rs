@@ -197,14 +197,14 @@ impl Light {
     }
 }
 
-/// Returns the objects drawn beside the bodies in some frames, as one camera sees them. The list is empty until the run is finished, since
-/// the positions of cameras are unknown before.
+/// Returns the objects drawn beside the bodies in some frames, as one camera sees them. The list is empty while the
+/// positions of cameras are unknown.
 pub(super) fn frames(
     run: &PageRun,
     view: usize,
     frames: impl Iterator<Item = usize>,
 ) -> io::Result<Vec<Shown<'_>>> {
-    let Some(Ok(outcome)) = run.outcome() else { return Ok(Vec::new()) };
+    let Some(outcome) = run.look() else { return Ok(Vec::new()) };
     let plan = outcome.plans.get(view).unwrap_or(&outcome.plans[0]);
     frames.map(|frame| Ok(shown(&run.scene, plan, &run.frame(frame)?))).collect()
 }

@@ -30,8 +30,8 @@ pub(super) struct ServerHost {
 /// The smallest interval between two notifications about new frames.
 const MIN_NOTIFICATION_INTERVAL: Duration = Duration::from_millis(40);
 
-/// The time that a new run has to finish before the page shows it unfinished.
-const MAX_WAIT_FOR_RUN: Duration = Duration::from_millis(150);
+/// The time that a new run has to finish before the page shows it unfinished: a run that has no look before, and one that has.
+const MAX_WAIT_FOR_RUN: [Duration; 2] = [Duration::from_millis(150), Duration::from_millis(25)];
 
 impl ServerHost {
     /// Makes a host that reads the scene from a file. `said` receives the reports for the terminal.
@@ -77,8 +77,8 @@ impl Host for ServerHost {
             }
             pulse.send_modify(|count| *count += 1);
         })?;
-        let begun = Instant::now();
-        while run.outcome().is_none() && begun.elapsed() < MAX_WAIT_FOR_RUN {
+        let (begun, wait) = (Instant::now(), MAX_WAIT_FOR_RUN[usize::from(run.look().is_some())]);
+        while run.outcome().is_none() && begun.elapsed() < wait {
             thread::sleep(Duration::from_millis(2));
         }
         Ok(())

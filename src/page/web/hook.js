@@ -11,7 +11,7 @@ window.jabuka = {
   get run() { return open.run?.id ?? null; },
   get integrator() { return open.run?.description.integrator ?? null; },
   get recorded() { return open.run?.progress?.recorded ?? 0; },
-  get settled() { return Boolean(open.run?.description.stage); },
+  get settled() { return Boolean(open.run?.description.settled); },
   get problem() { return element("problem").hidden || element("problem").classList.contains("mild") ? null : element("problem").textContent; },
   get comparison() { return element("comparison").textContent; },
   get selected() { return open.run?.description.bodies[panel.body]?.name ?? null; },

@@ -196,8 +196,8 @@ function placeOther(run) {
 
 function status(run) {
   const { recorded, frames } = run.progress ?? { recorded: 0, frames: 0 };
-  const stage = run.description.stage;
-  const step = stage ? `, timestep ${short(stage.timestep)} s, drift ${short(100 * stage.drift, 2)} %` : "";
+  const { stage, settled } = run.description;
+  const step = settled ? `, timestep ${short(stage.timestep)} s, drift ${short(100 * stage.drift, 2)} %` : "";
   const so = recorded < frames ? `simulated ${recorded} of ${frames} frames` : `${run.bodies} ${run.bodies === 1 ? "body" : "bodies"}, ${run.description.integrator}${step}`;
   element("status").textContent = so;
 }

@@ -192,7 +192,7 @@ export class Plots {
       return [term, what];
     });
     this.legend.replaceChildren(...rows);
-    const stages = this.runs.map(({ run }) => run.description.stage).filter(Boolean);
+    const stages = this.runs.map(({ run }) => run.description).filter(({ settled }) => settled).map(({ stage }) => stage);
     const percent = (stage) => `${short(100 * stage.drift, 2)} %`;
     this.drift.textContent = stages.length ? `drift ${stages.map(percent).join(" / ")}` : "";
     const scales = [...new Set(stages.map((stage) => stage.drift_scale))].join(" / ");

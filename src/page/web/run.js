@@ -104,7 +104,7 @@ export class Run {
   /** Stores the progress of the run. Returns true if the run has a new description, because it has finished. */
   async progressed(progress) {
     const settled = progress.settled && !this.progress?.settled;
-    const isNew = progress.settled && !this.description.stage && !progress.problem;
+    const isNew = progress.settled && !this.description.settled && !progress.problem;
     this.progress = progress;
     if (isNew) {
       this.description = await json(`/api/runs/${this.id}`);
