@@ -1,7 +1,8 @@
-// Makes the static folder of the playground: node build.mjs MODULE.wasm VERSION
+// Makes the static folder of the playground: node build.mjs MODULE.wasm
 
 import { build } from "esbuild";
-import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { createHash } from "node:crypto";
+import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -9,7 +10,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, "..");
 const page = join(root, "src/page/web");
 const dist = join(here, "dist");
-const [module, version] = process.argv.slice(2);
+const [module] = process.argv.slice(2);
 
 const POLICY =
   "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'; img-src 'self' blob: data:; " +
@@ -36,7 +37,6 @@ const html = readFileSync(join(page, "index.html"), "utf8")
   .replace(/<link rel="modulepreload"[^>]*>\n/g, "")
   .replace("<title>", `<meta http-equiv="Content-Security-Policy" content="${POLICY}">\n<link rel="preload" href="jabuka.wasm" as="fetch" crossorigin>\n<title>`);
 writeFileSync(join(dist, "index.html"), html);
-writeFileSync(join(dist, "service.js"), readFileSync(join(here, "web/service.js"), "utf8").replace("VERSION", version));
 
 // The shelf has the topics, titles and sentences of the gallery's page.
 const gallery = readFileSync(join(root, "docs/gallery.md"), "utf8");
@@ -69,3 +69,10 @@ const texts = bundled.map(([path, { version: number, license }]) => {
   return `${path.replace("node_modules/", "")} ${number}: ${license}\n\n${text}`;
 });
 writeFileSync(join(dist, "licences.txt"), texts.join(`\n${"-".repeat(72)}\n`));
+
+// The name of the cache of the browser changes with any file, so that no visitor keeps an old one.
+const digest = createHash("sha256");
+const names = readdirSync(dist, { recursive: true }).sort();
+for (const name of names.filter((name) => statSync(join(dist, name)).isFile())) digest.update(name).update(readFileSync(join(dist, name)));
+const version = digest.digest("hex").slice(0, 16);
+writeFileSync(join(dist, "service.js"), readFileSync(join(here, "web/service.js"), "utf8").replace("VERSION", version));
