@@ -171,7 +171,9 @@ impl PageRun {
         host: Arc<dyn Host>,
         before: Option<&PageRun>,
     ) -> Arc<PageRun> {
-        let provisional = before.and_then(|before| provisional::outcome(&scene, before));
+        // A mistake of jabuka here will be one of the run, too, and is reported there.
+        let look = caught("preparing", || Ok(before.and_then(|before| provisional::outcome(&scene, before))));
+        let provisional = look.unwrap_or_default();
         let moments = Moments::of(&scene);
         let empty = Recording::new(Counts::of(&scene), Box::<MemoryStore>::default());
         Arc::new(PageRun {
