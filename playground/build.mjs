@@ -72,7 +72,9 @@ writeFileSync(join(dist, "licences.txt"), texts.join(`\n${"-".repeat(72)}\n`));
 
 // The name of the cache of the browser changes with any file, so that no visitor keeps an old one.
 const digest = createHash("sha256");
-const names = readdirSync(dist, { recursive: true }).sort();
-for (const name of names.filter((name) => statSync(join(dist, name)).isFile())) digest.update(name).update(readFileSync(join(dist, name)));
+const names = readdirSync(dist, { recursive: true }).sort().filter((name) => statSync(join(dist, name)).isFile());
+for (const name of names) digest.update(name).update(readFileSync(join(dist, name)));
 const version = digest.digest("hex").slice(0, 16);
-writeFileSync(join(dist, "service.js"), readFileSync(join(here, "web/service.js"), "utf8").replace("VERSION", version));
+const kept = ["./", ...names.filter((name) => !/\.(jpg|txt)$/.test(name))];
+const service = readFileSync(join(here, "web/service.js"), "utf8");
+writeFileSync(join(dist, "service.js"), service.replace("VERSION", version).replace('["FILES"]', JSON.stringify(kept)));

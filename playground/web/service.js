@@ -1,8 +1,16 @@
 // Keeps the files of the page, so that it works without a network after the first visit.
 
 const NAME = "jabuka-VERSION";
+/** The files that the page may need. The small pictures of the shelf are kept when they are seen. */
+const FILES = ["FILES"];
 
-self.addEventListener("install", () => self.skipWaiting());
+self.addEventListener("install", (event) => {
+  const keep = async () => {
+    await (await caches.open(NAME)).addAll(FILES);
+    await self.skipWaiting();
+  };
+  event.waitUntil(keep());
+});
 
 self.addEventListener("activate", (event) => {
   const old = async () => {
