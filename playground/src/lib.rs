@@ -50,7 +50,7 @@ struct Worker {
 #[derive(Default)]
 struct WorkerHost {
     scene: Mutex<PathBuf>,
-    /// The runs that were started since they were last fetched from here.
+    /// The runs that were started, and whose work has not begun.
     started: Mutex<Vec<Arc<PageRun>>>,
     /// The last report on the scene.
     report: Mutex<Report>,

@@ -4,7 +4,7 @@ import "../../src/page/web/main.js";
 import { element, open } from "../../src/page/web/parts.js";
 import { linkOf, linked } from "./link.js";
 import { makeShelf } from "./shelf.js";
-import { onRead, onSet, setScene } from "./source.js";
+import { json, onRead, onSet, setScene } from "./source.js";
 
 /** The scene that a first visit shows. */
 const FIRST = "newtons_cradle";
@@ -42,6 +42,7 @@ const shelf = makeShelf(async (name) => {
 /** Reads the text. Resolves when that is done. */
 function read() {
   clearTimeout(timer);
+  sent = scene.text;
   setScene(path(), { ...scene.files, [path()]: scene.text });
   return new Promise((resolve) => waiting.push(resolve));
 }
@@ -49,17 +50,29 @@ function read() {
 const path = () => `${scene.name}.toml`;
 /** What waits for the text to be read. */
 const waiting = [];
+/** The text that was sent to be read last; the text that was read last, and the state after that. */
+let sent;
+let known = {};
 
 /** The slider that was moved last, and when. */
 let last = {};
 
 /** Writes the value of a slider into the text. */
-async function set({ variable, place }, value) {
+async function set(variable, value) {
+  // Places are those of a text that was read. Another slider or a key may have changed the text since then.
+  if (known.text !== scene.text) await read();
+  const { current, problem } = known.state;
+  if (problem) throw new Error("The text has an error: mend it first.");
+  const { sliders } = await json(`/api/runs/${current}`);
+  if (known.text !== scene.text) return set(variable, value);
+  const place = sliders.find((slider) => slider.variable === variable)?.place;
+  if (!place) throw new Error(`There is no slider of \`${variable}\` any more.`);
+  if (place.file !== path()) throw new Error(`\`${variable}\` stands in ${place.file}: change it there.`);
   const before = scene.text.split("\n").slice(0, place.line - 1).reduce((sum, line) => sum + line.length + 1, 0);
   const line = scene.text.slice(before).split("\n", 1)[0];
   const start = [...line].slice(0, place.column - 1).join("").length;
   const [number] = /^[-+]?[\d._]+(?:[eE][-+]?\d+)?/.exec(line.slice(start)) ?? [];
-  if (place.file !== path() || number === undefined) throw new Error(`The value of \`${variable}\` is a formula: change it in the text.`);
+  if (number === undefined) throw new Error(`The value of \`${variable}\` is a formula: change it in the text.`);
   const from = before + start;
   // The values that a slider passes on its way are one step.
   const begins = last.variable !== variable || performance.now() - last.time > STEP_TIME;
@@ -177,6 +190,7 @@ document.body.append(shelf.dialog);
 showParts();
 onRead((state) => {
   ({ diagnostics: entries } = state);
+  known = { text: sent, state };
   mark();
   waiting.splice(0).forEach((resolve) => resolve());
 });

@@ -148,14 +148,14 @@ export function follow(changed, lost) {
 
 export const MOVED = "";
 
-/** Calls `set` when a slider gives a variable another value: with the slider and the value. */
+/** Calls `set` when a slider gives a variable another value: with the name and the value. */
 export function onSet(set) {
   listeners.set = set;
 }
 
 /** Resolves when the worker has read the scene with the new value. */
-export async function setVariable(slider, value) {
-  await listeners.set(slider, value);
+export async function setVariable(variable, value) {
+  await listeners.set(variable, value);
 }
 
 /** POV-Ray does not run in a browser. The page does not offer it. */

@@ -149,6 +149,23 @@ await tests({
     await end(2.5, 4.25);
   },
 
+  async sliders_on_one_line_do_not_write_into_each_other(all) {
+    const page = await openBall(all);
+    const variables = (a, b) => `variables = { a = { value = ${a}, min = 0, max = 1000 }, b = { value = ${b}, min = 0, max = 1000 } }\n`;
+    await write(page, variables(1, 2) + BALL.replace("[1, 0, 0]", "['a', 'b', 0]"));
+    await page.locator("input[name=b]").waitFor();
+    // Each value that gets longer moves the other value in the text.
+    await page.evaluate(() => {
+      for (const [name, value] of [["a", 500], ["b", 700], ["a", 5], ["b", 90], ["a", 1000], ["b", 1000]]) {
+        const input = document.querySelector(`input[name=${name}]`);
+        input.value = value;
+        input.dispatchEvent(new Event("input"));
+      }
+    });
+    await until(page, (jabuka) => jabuka.settled && jabuka.pose("ball", 25)?.location[0] > 999 && jabuka.pose("ball", 25).location[1] > 999);
+    assert.ok((await page.evaluate(() => window.jabuka.editor.view.state.doc.toString())).startsWith(variables(1000, 1000)));
+  },
+
   async a_link_holds_the_scene(all) {
     const page = await openBall(all);
     const text = BALL.replace("[1, 0, 0]", '["2*pi", 0, 0] # ≈ 2π');

@@ -23,6 +23,7 @@ in_the_browser!(
     keys_are_completed_and_explained,
     keys_typed_in_the_editor_do_not_control_the_player,
     a_slider_changes_the_text_and_the_motion,
+    sliders_on_one_line_do_not_write_into_each_other,
     a_link_holds_the_scene,
     damaged_and_hostile_links_are_refused,
     a_scene_that_takes_for_ever_gives_way_to_the_next,

@@ -1,13 +1,13 @@
 // The sliders of the scene's variables.
 
 import { short } from "./math.js";
-import { element, open, redraw } from "./parts.js";
+import { element, redraw } from "./parts.js";
 import { MOVED, setVariable } from "./source.js";
 
 /** The number of steps of a slider whose scene gives none: at least this many. */
-const STEPS = 100;
+const MIN_STEPS = 100;
 
-/** The newest value of each slider that the source has not taken yet, and the slider that it is of. */
+/** The newest value of each variable that the source has not taken yet. */
 const waiting = new Map();
 /** The values that runs on their way will have. A run with another value is an older one, and moves no slider. */
 const expected = new Map();
@@ -18,7 +18,7 @@ let known = "";
 /** Returns a round step that divides the range of a slider finely. */
 function stepOf({ min, max, step }) {
   if (step) return step;
-  const raw = (max - min) / STEPS;
+  const raw = (max - min) / MIN_STEPS;
   const decade = 10 ** Math.floor(Math.log10(raw));
   return [5, 2, 1].map((part) => part * decade).find((part) => part <= raw * 1.0001) ?? decade;
 }
@@ -31,10 +31,10 @@ async function send() {
   if (sending) return;
   sending = true;
   while (waiting.size) {
-    const [[name, { slider, value }]] = waiting;
+    const [[name, value]] = waiting;
     waiting.delete(name);
     try {
-      await setVariable(slider, value);
+      await setVariable(name, value);
       element("sliders-said").textContent = MOVED;
     } catch (error) {
       expected.delete(name);
@@ -64,9 +64,7 @@ function row(slider) {
   input.oninput = () => {
     const number = isSwitch ? Number(input.checked) : rounded(Math.min(slider.max, Math.max(slider.min, Number(input.value))));
     show(number);
-    // The description of the newest run says where the value stands in the text now.
-    const newest = open.run?.description.sliders.find(({ variable }) => variable === slider.variable) ?? slider;
-    waiting.set(slider.variable, { slider: newest, value: number });
+    waiting.set(slider.variable, number);
     expected.set(slider.variable, number);
     send();
     redraw();

@@ -43,7 +43,7 @@ export async function startVariant(variant) {
 }
 
 /** Gives a variable that has a slider another value. */
-export async function setVariable({ variable }, value) {
+export async function setVariable(variable, value) {
   await post("/api/variables", { variable, value });
 }
 
