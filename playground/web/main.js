@@ -2,6 +2,7 @@
 
 import "../../src/page/web/main.js";
 import { element, open } from "../../src/page/web/parts.js";
+import { make } from "./elements.js";
 import { linkOf, linked } from "./link.js";
 import { makeShelf } from "./shelf.js";
 import { json, onRead, onSet, setScene } from "./source.js";
@@ -17,12 +18,6 @@ const STEP_TIME = 800;
 const scene = { name: "", text: "", files: {} };
 let editor;
 let timer;
-
-function make(tag, attributes = {}, ...children) {
-  const made = Object.assign(document.createElement(tag), attributes);
-  made.append(...children);
-  return made;
-}
 
 const said = make("p", { id: "said" });
 said.setAttribute("role", "status");

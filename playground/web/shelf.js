@@ -1,10 +1,6 @@
 // The shelf: all scenes of the gallery, by topic, with small pictures.
 
-function make(tag, attributes = {}, ...children) {
-  const made = Object.assign(document.createElement(tag), attributes);
-  made.append(...children);
-  return made;
-}
+import { make } from "./elements.js";
 
 async function fetched(path) {
   const response = await fetch(path);
