@@ -24,8 +24,8 @@ const turn = new MessageChannel();
 function end(error) {
   ended = true;
   const last = said.filter((line) => !line.startsWith("note: ")).join("\n");
-  const full = /memory|allocation|unreachable/.test(String(error)) && !last;
-  self.postMessage({ broken: last || (full ? "the scene needs more memory than a page may have" : String(error)) });
+  const isFull = /memory allocation/.test(last);
+  self.postMessage({ broken: isFull ? "the scene needs more memory than a page may have" : last || String(error) });
 }
 
 function tell() {
