@@ -68,7 +68,8 @@ const texts = bundled.map(([path, { version: number, license }]) => {
   const text = readdirSync(folder).filter((name) => /^licen[cs]e/i.test(name)).map((name) => readFileSync(join(folder, name), "utf8")).join("\n");
   return `${path.replace("node_modules/", "")} ${number}: ${license}\n\n${text}`;
 });
-writeFileSync(join(dist, "licences.txt"), texts.join(`\n${"-".repeat(72)}\n`));
+const ofPage = readFileSync(join(page, "libraries/licences.txt"), "utf8");
+writeFileSync(join(dist, "licences.txt"), [...texts, ofPage].join(`\n${"-".repeat(72)}\n`));
 
 // The name of the cache of the browser changes with any file, so that no visitor keeps an old one.
 const digest = createHash("sha256");

@@ -169,7 +169,7 @@ function showParts() {
 }
 
 async function loadEditor() {
-  const { makeEditor } = await import("./editor.js");
+  const { makeEditor } = await import("../../src/page/web/editor.js");
   editor = makeEditor(field, scene.text, edited);
   window.jabuka.editor = editor;
   mark();

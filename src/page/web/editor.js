@@ -1,15 +1,10 @@
 // The editor for the text of the scene. It is loaded after the first picture, because it is large.
 
-import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
-import { defaultKeymap, history, historyKeymap, isolateHistory } from "@codemirror/commands";
-import { HighlightStyle, StreamLanguage, bracketMatching, syntaxHighlighting } from "@codemirror/language";
-import { toml } from "@codemirror/legacy-modes/mode/toml";
-import { lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
-import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
-import { EditorState } from "@codemirror/state";
-import { EditorView, drawSelection, highlightActiveLine, hoverTooltip, keymap, lineNumbers } from "@codemirror/view";
-import { tags } from "@lezer/highlight";
-
+import {
+  EditorState, EditorView, HighlightStyle, StreamLanguage, autocompletion, bracketMatching, closeBrackets, closeBracketsKeymap, completionKeymap,
+  defaultKeymap, drawSelection, highlightActiveLine, highlightSelectionMatches, history, historyKeymap, hoverTooltip, isolateHistory, keymap, lineNumbers,
+  lintGutter, lintKeymap, searchKeymap, setDiagnostics, syntaxHighlighting, tags, toml,
+} from "./libraries/codemirror.js";
 import { completions, described } from "./keys.js";
 
 /** The colors of the page, in light and dark. */
