@@ -14,7 +14,7 @@ const [module] = process.argv.slice(2);
 
 const POLICY =
   "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'; img-src 'self' blob: data:; " +
-  "style-src 'self' 'unsafe-inline'; font-src 'self'; base-uri 'none'; form-action 'none'";
+  "style-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'";
 
 /** The page's modules get their data from the worker. */
 const source = {

@@ -20,7 +20,7 @@ use jabuka::Scene;
 use jabuka::diagnostic::Report;
 use jabuka::page::{Answer, Failed, Frames, Host, PageRun, RunWork, Session, Variant};
 use jabuka::scene::{Options, grammar};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// A request of the page. Its path is `/api/state`, `/api/schema`, `/api/variants`, or one that [`jabuka::page::answer`] knows.
 #[derive(Deserialize)]
@@ -52,17 +52,12 @@ struct WorkerHost {
     scene: Mutex<PathBuf>,
     /// The runs that were started, and whose work has not begun.
     started: Mutex<Vec<Arc<PageRun>>>,
-    /// The last report on the scene.
-    report: Mutex<Report>,
 }
 
 impl Host for WorkerHost {
     fn read(&self, options: &Options) -> Result<Scene, Report> {
         let path = self.scene.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        let read = Scene::from_path_with(&path, options);
-        let report = read.as_ref().map_or_else(|report| report, |scene| &scene.warnings);
-        *self.report.lock().unwrap_or_else(PoisonError::into_inner) = report.clone();
-        read
+        Scene::from_path_with(&path, options)
     }
 
     fn start(&self, run: Arc<PageRun>) -> io::Result<()> {
@@ -73,14 +68,6 @@ impl Host for WorkerHost {
     fn changed(&self) {}
 
     fn report(&self, _report: &Report) {}
-}
-
-/// The state that the page receives: that of the session, and the places of the scene's errors and warnings, for the editor.
-#[derive(Serialize)]
-struct State<'a> {
-    #[serde(flatten)]
-    session: jabuka::page::State,
-    diagnostics: Vec<jabuka::diagnostic::Entry<'a>>,
 }
 
 impl Worker {
@@ -98,10 +85,7 @@ impl Worker {
         }
         let session = self.session.as_ref().ok_or(Failed::Gone)?;
         match (request.path.as_str(), &request.variant) {
-            ("/api/state", _) => {
-                let report = self.host.report.lock().unwrap_or_else(PoisonError::into_inner);
-                Answer::json(&State { session: session.state(), diagnostics: report.to_json() })
-            }
+            ("/api/state", _) => Answer::json(&session.state()),
             ("/api/variants", Some(variant)) => {
                 let progress = session.variant(variant.clone())?.progress();
                 self.fetch_started();

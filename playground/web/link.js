@@ -29,8 +29,9 @@ export async function linkOf({ name, text }) {
   return `${page}#scene=${letters.replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "")}`;
 }
 
-/** Returns the scene in the address: its `name` and `text`, or the name of a scene of the gallery (`gallery`). Undefined if there is none. */
+/** Returns the scene in the address: its `name` and `text`, the name of a scene of the gallery (`gallery`), or the tutorial. Undefined if there is none. */
 export async function linked() {
+  if (location.hash === "#tutorial") return { tutorial: true };
   const [, kind, value] = /^#(scene|gallery)=([\w-]+)$/.exec(location.hash) ?? [];
   if (!kind) return undefined;
   if (kind === "gallery") return { gallery: value };

@@ -1,6 +1,6 @@
 // The shelf: all scenes of the gallery, by topic, with small pictures.
 
-import { make } from "./elements.js";
+import { make } from "../../src/page/web/elements.js";
 
 async function fetched(path) {
   const response = await fetch(path);

@@ -14,7 +14,7 @@ let worker;
 let generation = 0;
 let asked = 0;
 const waiting = new Map();
-const listeners = { changed: () => {}, lost: () => {}, read: () => {}, set: () => {} };
+const listeners = { changed: () => {}, lost: () => {} };
 /** The scene that the worker has taken last, or that it will take first. */
 let newest;
 let taken = true;
@@ -69,9 +69,7 @@ function receive({ id, bytes, error, status, state, began, broken: why }) {
     return;
   }
   if (state) {
-    const known = renamed(state);
-    if (known.scene === newest?.serial) listeners.read(known);
-    listeners.changed(known);
+    listeners.changed(renamed(state));
     return;
   }
   const { resolve, reject } = waiting.get(id) ?? {};
@@ -85,19 +83,33 @@ function broken(why) {
   clearTimeout(patience);
   taken = true;
   stop();
-  const state = { current: null, integrator: null, problem: `jabuka has stopped: ${why}\n\nChange the scene to start it again.`, warnings: null, runs: {}, diagnostics: [] };
-  listeners.read(state);
-  listeners.changed(state);
+  const problem = `jabuka has stopped: ${why}\n\nChange the scene to start it again.`;
+  listeners.changed({ current: null, integrator: null, problem, warnings: null, runs: {}, text: newest?.version ?? null, diagnostics: [] });
 }
 
 /** Gives the worker another scene: its path, and the text or the bytes of each of its files by path. */
 export function setScene(scene, files) {
-  newest = { scene, files, serial: (newest?.serial ?? 0) + 1 };
+  // The numbers of scenes are the versions of their texts.
+  newest = { scene, files, version: String(Number(newest?.version ?? 0) + 1) };
   if (!worker) start();
   taken = false;
-  worker.postMessage({ scene, files, serial: newest.serial });
+  worker.postMessage(newest);
   clearTimeout(patience);
   patience = setTimeout(replace, PATIENCE);
+}
+
+/** The text is a part of the page from the beginning. The time without a further key after which it is read, ms. */
+export const TEXT = { isOpen: true, pause: 120 };
+
+export async function readText() {
+  const { scene, files, version } = newest;
+  return { file: scene, text: files[scene], version };
+}
+
+export async function writeText(text) {
+  const { scene, files } = newest;
+  setScene(scene, { ...files, [scene]: text });
+  return newest.version;
 }
 
 /** Starts another worker, because the present one does not take the newest scene. */
@@ -108,14 +120,8 @@ function replace() {
     return;
   }
   start();
-  const { scene, files, serial } = newest;
-  worker.postMessage({ scene, files, serial });
+  worker.postMessage(newest);
   patience = setTimeout(replace, 10 * PATIENCE);
-}
-
-/** Calls `read` with the state whenever the newest scene has been read. */
-export function onRead(read) {
-  listeners.read = read;
 }
 
 function ask(path, frames, more = {}) {
@@ -148,15 +154,8 @@ export function follow(changed, lost) {
 
 export const MOVED = "";
 
-/** Calls `set` when a slider gives a variable another value: with the name and the value. */
-export function onSet(set) {
-  listeners.set = set;
-}
-
-/** Resolves when the worker has read the scene with the new value. */
-export async function setVariable(variable, value) {
-  await listeners.set(variable, value);
-}
+/** Sliders always write into the text. */
+export const setVariable = undefined;
 
 /** POV-Ray does not run in a browser. The page does not offer it. */
 export function renderFrame() {

@@ -13,7 +13,8 @@ const [AT_ONCE, AGAIN] = [150, 25];
 const said = [];
 let jabuka;
 let told = 0;
-let serial;
+/** The version of the text that was read last. */
+let version;
 /** The path of the scene that was read last. */
 let last;
 let busy = false;
@@ -30,7 +31,7 @@ function end(error) {
 
 function tell() {
   told = performance.now();
-  self.postMessage({ state: { ...jabuka.json({ path: "/api/state" }), scene: serial } });
+  self.postMessage({ state: { ...jabuka.json({ path: "/api/state" }), text: version } });
 }
 
 function goOn() {
@@ -50,9 +51,9 @@ turn.port1.onmessage = () => {
   }
 };
 
-function read({ scene, files, serial: number }) {
-  self.postMessage({ began: number });
-  serial = number;
+function read({ scene, files, version: newest }) {
+  self.postMessage({ began: newest });
+  version = newest;
   const patience = scene === last ? AGAIN : AT_ONCE;
   last = scene;
   said.length = 0;

@@ -20,6 +20,9 @@ pub(super) struct Arguments {
     /// Print the address of the page, and do not open the browser
     #[arg(long)]
     no_open: bool,
+    /// Do not let the page change the scene file
+    #[arg(long)]
+    read_only: bool,
     #[command(flatten)]
     of_scene: SceneArguments,
     /// The path of the POV-Ray program, which renders single frames [default: povray]
@@ -39,6 +42,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         cache: arguments.of_scene.cache()?,
         port: arguments.port,
         povray: arguments.povray.clone(),
+        read_only: arguments.read_only,
         launcher: Launcher::of_this_program(),
     };
     let listening = |address: &str| {

@@ -82,6 +82,11 @@ impl Sources {
         &self.files
     }
 
+    /// Returns the text of the scene itself. `None` if it could not be read.
+    pub fn of_scene(&self) -> Option<&Source> {
+        self.texts.first().map(|source| &**source)
+    }
+
     /// Returns the text with the given id.
     pub fn get(&self, id: SourceId) -> &Source {
         &self.texts[id.0]

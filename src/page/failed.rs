@@ -9,6 +9,8 @@ use crate::simulate::SimulateError;
 pub enum Failed {
     /// The requested run has been removed, or has no such frame or body.
     Gone,
+    /// The text of the scene has changed since the version on which the user's changes are based.
+    Changed,
     /// The error report of a run, a scene or POV-Ray, as the terminal would show it.
     Report(Report),
     /// An error of the operating system.
@@ -44,6 +46,7 @@ impl Failed {
     pub fn status(&self) -> u16 {
         match self {
             Failed::Gone => 404,
+            Failed::Changed => 409,
             Failed::Report(_) => 422,
             Failed::Io(_) => 500,
         }
@@ -53,6 +56,7 @@ impl Failed {
     pub fn message(&self) -> String {
         match self {
             Failed::Gone => "there is no such run, frame or body\n".to_owned(),
+            Failed::Changed => "another program has changed the file\n".to_owned(),
             Failed::Report(report) => report.to_text(false),
             Failed::Io(error) => format!("{error}\n"),
         }

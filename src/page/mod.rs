@@ -29,7 +29,10 @@
 //!
 //! # The page
 //!
-//! - The page is plain modules and WebGL2, without a library and a build step.
+//! - The page is plain modules and WebGL2, without a build step. The libraries that it needs, such as that of the editor, are bundles made by
+//!   `libraries/build`. They are committed, so that building jabuka needs no npm, and loaded when they are needed.
+//! - The page edits the text of the scene where its host lets it (`web/text.js`). Each text has a version, so that nothing is overwritten
+//!   that another program has written meanwhile.
 //! - Each run has a unique number. The page requests the frames of a run in pieces of at most 2 MB, and keeps 256 MB of them. If the run has
 //!   been replaced, the answer says so, and the page continues with the run that the session has announced. All that the page remembers of a
 //!   picture belongs to the object of its run, so nothing of an earlier run is drawn.
@@ -62,4 +65,4 @@ pub(crate) use numbers::poses;
 #[cfg(feature = "preview")]
 pub(crate) use panicked::caught;
 pub use run::{Outcome, PageRun, Progress, RunId, RunWork};
-pub use session::{Session, State, Variant};
+pub use session::{Session, State, Variant, text_version};

@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use serde::Serialize;
+use sha2::{Digest as _, Sha256};
 
 use super::Host;
 use super::panicked::caught;
@@ -34,6 +35,8 @@ struct Inner {
     variants: VecDeque<(Variant, Arc<PageRun>)>,
     problem: Option<String>,
     warnings: Option<String>,
+    text: Option<String>,
+    diagnostics: serde_json::Value,
 }
 
 /// An integration method and a timestep that replace those of the scene.
@@ -56,8 +59,17 @@ pub struct State {
     pub problem: Option<String>,
     /// The warnings of the scene.
     pub warnings: Option<String>,
+    /// The version of the scene's text that was read last ([`text_version`]). `None` if it could not be read.
+    pub text: Option<String>,
+    /// The errors and warnings of this text with their places, as `jabuka check --format json` prints them.
+    pub diagnostics: serde_json::Value,
     /// The progress of all runs that the page can request, by id.
     pub runs: BTreeMap<String, Progress>,
+}
+
+/// Returns the version of a text, which differs from that of any other text.
+pub fn text_version(text: &str) -> String {
+    Sha256::digest(text).iter().take(16).map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The largest number of runs with other methods.
@@ -85,6 +97,8 @@ impl Session {
             integrator: inner.current.as_ref().map(|run| run.scene.simulation.method.name),
             problem: inner.problem.clone(),
             warnings: inner.warnings.clone(),
+            text: inner.text.clone(),
+            diagnostics: inner.diagnostics.clone(),
             runs: runs.map(|run| (run.id.to_string(), run.progress())).collect(),
         }
     }
@@ -180,6 +194,12 @@ impl Session {
         let read = self.scene(&self.options_of(&own, set));
         let report = read.as_ref().map_or_else(|report| report, |scene| &scene.warnings);
         let files = report.sources.files().to_vec();
+        let text = report.sources.of_scene().map(|source| text_version(&source.text));
+        let diagnostics = serde_json::to_value(report.to_json()).unwrap_or_default();
+        {
+            let mut inner = self.lock();
+            (inner.text, inner.diagnostics) = (text, diagnostics);
+        }
         match read {
             Ok(scene) => self.replace(scene),
             Err(report) => self.complain(&report),

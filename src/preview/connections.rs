@@ -23,8 +23,8 @@ const REQUEST_TIMEOUT: Duration = Duration::from_secs(5);
 /// The largest number of simultaneous connections. A page has six at most.
 const MAX_CONNECTIONS: usize = 128;
 
-/// The largest size of a request's body, bytes.
-const MAX_BODY_BYTES: usize = 1 << 16;
+/// The largest size of a request's body, bytes: that of the text of a large scene.
+const MAX_BODY_BYTES: usize = 1 << 20;
 
 /// Answers the requests of all connections. Never returns.
 pub(super) async fn serve(listener: TcpListener, router: Router) -> Infallible {

@@ -6,6 +6,7 @@
 //! | the scene, runs and recordings, for the page's session | `host` |
 //! | the server, its connections, its access control, and its answers | `routes`, `connections`, `access`, `responses` |
 //! | a frame rendered by POV-Ray | `render` |
+//! | the text of the scene, which the page edits | `text` |
 //!
 //! The page itself, and the data that it shows, are in `page`.
 //!
@@ -37,6 +38,7 @@ mod host;
 mod render;
 mod responses;
 mod routes;
+mod text;
 mod watch;
 
 use std::io;
@@ -54,6 +56,7 @@ use self::follow::follow;
 use self::host::ServerHost;
 use self::render::Renderer;
 use self::routes::Server;
+use self::text::SceneFile;
 use crate::cache::Cache;
 use crate::diagnostic::Report;
 use crate::page::Session;
@@ -73,6 +76,8 @@ pub struct Preview {
     pub port: Option<u16>,
     /// The path of the POV-Ray program. `None` for `povray` in the `PATH`.
     pub povray: Option<PathBuf>,
+    /// True if the page may not change the file of the scene.
+    pub read_only: bool,
     /// The launcher that confines POV-Ray to its files. With `None`, POV-Ray is not confined.
     pub launcher: Option<Launcher>,
 }
@@ -100,7 +105,9 @@ impl Preview {
         let host = ServerHost::new(self.scene.clone(), self.cache, said);
         let session = Arc::new(Session::new(self.options, Arc::<ServerHost>::clone(&host)));
         let renderer = Arc::new(Renderer::new(self.povray, confinement));
-        let server = Server { session: Arc::clone(&session), host, renderer: Arc::clone(&renderer), token };
+        let file = (!self.read_only).then(|| Arc::new(SceneFile::new(self.scene.clone())));
+        let server =
+            Server { session: Arc::clone(&session), host, renderer: Arc::clone(&renderer), file, token };
         listening(&format!("http://{address}/?token={}", server.token.as_str()));
         // This thread ends with the process, so a scene that takes long to read does not delay the end.
         thread::Builder::new().name("scene".to_owned()).spawn(move || follow(&session, &self.scene, stop))?;

@@ -6,6 +6,9 @@
 //! | `/api/events` | the [`State`](crate::page::State), whenever it changes |
 //! | `/api/runs/N/poses?from=A&to=B` | the poses of its bodies in some frames; each frame is sent as soon as it is simulated |
 //! | other paths that begin with `/api/runs/` | what [`answer_of_run`] answers |
+//! | `/api/text` | the text of the scene's file |
+//! | `/api/save` | replaces the text |
+//! | `/api/schema` | the keys of scenes, for the editor |
 //! | `/api/variables` | gives a variable with a slider another value |
 //! | `/api/variants` | starts a run with another integration method |
 //! | `/api/render` | a frame rendered by POV-Ray |
@@ -31,7 +34,9 @@ use super::access::{self, Refused, Token};
 use super::connections;
 use super::host::ServerHost;
 use super::render::{Renderer, Wanted};
+use super::text::{NewText, SceneFile};
 use crate::page::{Answer, FILES, Failed, Frames, PageRun, RunId, Session, Variant, answer_of_run, poses};
+use crate::scene::grammar;
 
 /// The data that the server answers requests from.
 #[derive(Clone)]
@@ -39,6 +44,8 @@ pub(super) struct Server {
     pub(super) session: Arc<Session>,
     pub(super) host: Arc<ServerHost>,
     pub(super) renderer: Arc<Renderer>,
+    /// The file of the scene, if the page may change it.
+    pub(super) file: Option<Arc<SceneFile>>,
     pub(super) token: Token,
 }
 
@@ -63,6 +70,9 @@ pub(super) fn router(server: Server) -> Router {
         .route("/api/runs/{id}", get(description))
         .route("/api/runs/{id}/poses", get(poses_of_run))
         .route("/api/runs/{id}/{what}", get(of_run))
+        .route("/api/text", get(text))
+        .route("/api/save", post(save))
+        .route("/api/schema", get(schema))
         .route("/api/variants", post(variant))
         .route("/api/render", post(render))
         .route("/api/variables", post(variable))
@@ -120,7 +130,10 @@ async fn events(
         let mut pulse = server.host.pulse();
         let mut last = None;
         while !sender.is_closed() {
-            let state = server.session.state();
+            let mut state = server.session.state();
+            if server.file.is_none() {
+                state.text = None;
+            }
             if last.as_ref() != Some(&state) {
                 let Ok(event) = Event::default().json_data(&state) else { return };
                 if sender.send(event).await.is_err() {
@@ -202,6 +215,26 @@ async fn poses_of_run(
         }
     });
     Ok(binary(Body::from_stream(ReceiverStream::new(receiver))))
+}
+
+async fn text(State(server): State<Server>) -> Result<Response, Failed> {
+    let file = server.file.ok_or(Failed::Gone)?;
+    blocking(move || Ok(Json(file.read()?).into_response())).await
+}
+
+async fn save(State(server): State<Server>, Json(new): Json<NewText>) -> Result<Response, Failed> {
+    let file = server.file.ok_or(Failed::Gone)?;
+    blocking(move || {
+        let version = file.write(&new)?;
+        // The thread that follows the files would notice the change, too, but later.
+        server.session.read();
+        Ok(Json(version).into_response())
+    })
+    .await
+}
+
+async fn schema() -> Result<Answer, Failed> {
+    blocking(|| Answer::json(&grammar::schema())).await
 }
 
 async fn variant(State(server): State<Server>, Json(variant): Json<Variant>) -> Result<Response, Failed> {

@@ -149,6 +149,42 @@ await tests({
     await end(2.5, 4.25);
   },
 
+  async a_number_follows_the_pointer_and_the_keys(all) {
+    const page = await openBall(all);
+    await until(page, (jabuka) => jabuka.editor);
+    const text = () => page.evaluate(() => window.jabuka.editor.view.state.doc.toString());
+    const end = (x) => until(page, (jabuka, x) => jabuka.settled && Math.abs(jabuka.pose("ball", 25)?.location[0] - x) < 1e-9, x);
+    const at = await page.evaluate(() => {
+      const { view } = window.jabuka.editor;
+      const { left, top, bottom } = view.coordsAtPos(view.state.doc.toString().indexOf("[1, 0, 0]") + 1);
+      return { x: left + 2, y: (top + bottom) / 2 };
+    });
+    const drag = async (...keys) => {
+      for (const key of keys) await page.keyboard.down(key);
+      await page.mouse.move(at.x, at.y);
+      await page.mouse.down();
+      for (let k = 1; k <= 3; k++) await page.mouse.move(at.x + 4 * k, at.y);
+      await page.mouse.up();
+      for (const key of keys) await page.keyboard.up(key);
+    };
+    await drag("Alt");
+    assert.equal(await text(), BALL.replace("[1, 0, 0]", "[4, 0, 0]"));
+    await end(4);
+    await drag("Alt", "Shift");
+    assert.equal(await text(), BALL.replace("[1, 0, 0]", "[34, 0, 0]"));
+    // One drag is one step that is taken back; without the key, the pointer selects.
+    await page.locator(".cm-content").focus();
+    await page.keyboard.press("Control+z");
+    assert.equal(await text(), BALL.replace("[1, 0, 0]", "[4, 0, 0]"));
+    await drag();
+    assert.equal(await text(), BALL.replace("[1, 0, 0]", "[4, 0, 0]"));
+    await page.mouse.click(at.x, at.y);
+    await page.keyboard.press("Control+ArrowDown");
+    await page.keyboard.press("Control+Shift+ArrowUp");
+    assert.equal(await text(), BALL.replace("[1, 0, 0]", "[13, 0, 0]"));
+    await end(13);
+  },
+
   async sliders_on_one_line_do_not_write_into_each_other(all) {
     const page = await openBall(all);
     const variables = (a, b) => `variables = { a = { value = ${a}, min = 0, max = 1000 }, b = { value = ${b}, min = 0, max = 1000 } }\n`;
@@ -164,6 +200,55 @@ await tests({
     });
     await until(page, (jabuka) => jabuka.settled && jabuka.pose("ball", 25)?.location[0] > 999 && jabuka.pose("ball", 25).location[1] > 999);
     assert.ok((await page.evaluate(() => window.jabuka.editor.view.state.doc.toString())).startsWith(variables(1000, 1000)));
+  },
+
+  async the_tutorial_goes_from_a_ball_to_a_link({ open, address, keep, browser }) {
+    const page = keep(await newPage(browser));
+    await page.goto(`${address}#tutorial`);
+    const heading = page.locator("#tutorial h2");
+    const done = page.locator("#tutorial .done");
+    const next = page.getByRole("button", { name: "Next" });
+    const mend = page.getByRole("button", { name: "Do it for me" });
+    const editor = () => page.evaluate(() => window.jabuka.editor.view.state.doc.toString());
+    await until(page, (jabuka) => jabuka?.settled && jabuka.editor);
+    const ways = [
+      () => page.evaluate(() => window.jabuka.seek(20)),
+      () => mend.click(),
+      async () => {
+        const text = await editor();
+        await write(page, text.replace("velocity", "velocty"));
+        await until(page, (jabuka) => jabuka.problem !== null);
+        await new Promise((resolve) => setTimeout(resolve, 500));
+        assert.equal(await done.textContent(), "");
+        await write(page, text);
+      },
+      () => mend.click(),
+      async () => {
+        await mend.click();
+        const slider = page.locator("input[name=up]");
+        await slider.waitFor();
+        await until(page, (jabuka) => jabuka.settled && jabuka.problem === null);
+        await new Promise((resolve) => setTimeout(resolve, 500));
+        await slider.fill("5");
+      },
+      () => page.locator("input[name=up]").fill("7.7"),
+      async () => {
+        await page.locator("#body-name").fill("ball");
+        await page.locator("#body-name").press("Enter");
+      },
+      () => page.locator("#other-integrator").selectOption("rk4"),
+      () => page.getByRole("button", { name: "Copy link" }).click(),
+    ];
+    for (const [number, deed] of ways.entries()) {
+      await heading.filter({ hasText: `Step ${number + 1} of ${ways.length}` }).waitFor();
+      assert.equal(await done.textContent(), "");
+      await deed();
+      await done.filter({ hasText: "✓" }).waitFor();
+      if (number + 1 < ways.length) await next.click();
+    }
+    assert.equal(await next.isVisible(), false);
+    await page.locator("#tutorial").getByRole("button", { name: "Close" }).click();
+    assert.equal(await page.locator("#tutorial").isVisible(), false);
   },
 
   async a_link_holds_the_scene(all) {

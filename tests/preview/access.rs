@@ -47,13 +47,19 @@ fn paths() -> (Asked, Asked) {
         page.split("    (\"/").skip(1).map(|rest| ("GET", format!("/{}", rest.split('"').next().unwrap())));
     let files: Vec<_> = files.collect();
     assert!(api.len() >= 12 && api.iter().all(|(_, path)| path.starts_with("/api/")), "{api:?}");
-    assert!(api.iter().filter(|(method, _)| *method == "POST").count() == 3, "{api:?}");
+    assert!(api.iter().filter(|(method, _)| *method == "POST").count() == 4, "{api:?}");
     assert!(files.len() >= 10, "{files:?}");
     (api, files)
 }
 
-/// The body of a request that asks for another integration method, an image, or another value of a variable.
-const ORDER: &str = r#"{"integrator":"rk4","step":"","run":"1","frame":0,"variable":"size","value":1.5}"#;
+/// Returns the body of a request that saves the text that the file has, or asks for another integration method, an image, or another value
+/// of a variable.
+fn order() -> String {
+    let order = serde_json::json!({
+        "text": SECRET, "base": "", "integrator": "rk4", "step": "", "run": "1", "frame": 0, "variable": "size", "value": 1.5
+    });
+    order.to_string()
+}
 
 fn host(port: u16) -> String {
     format!("Host: 127.0.0.1:{port}\r\nContent-Type: application/json\r\n")
@@ -84,11 +90,11 @@ fn another_host_is_refused_on_every_path() {
                 method,
                 &path,
                 &format!("Host: {host}\r\nContent-Type: application/json\r\n"),
-                ORDER,
+                &order(),
             );
             assert_refused(&answer, 403, &format!("{host} {path}"));
         }
-        let nameless = ask(port, method, &format!("{path}?token={token}"), "", ORDER);
+        let nameless = ask(port, method, &format!("{path}?token={token}"), "", &order());
         assert_refused(&nameless, 403, &path);
     }
 }
@@ -111,7 +117,7 @@ fn nobody_is_told_of_the_scene_without_the_token() {
     assert_ne!(token.to_uppercase(), token, "one without letters comes once in millions of starts");
     for (method, path) in paths().0 {
         for wrong in &wrong {
-            let answer = ask(port, method, &format!("{path}{wrong}"), &host(port), ORDER);
+            let answer = ask(port, method, &format!("{path}{wrong}"), &host(port), &order());
             assert_refused(&answer, 403, &format!("{path}{wrong}"));
         }
     }
@@ -143,7 +149,7 @@ fn a_page_of_another_origin_is_refused_even_with_the_token() {
     for (method, path) in api.into_iter().chain(files) {
         for origin in &foreign {
             let headers = format!("{}Origin: {origin}\r\n", host(port));
-            let answer = ask(port, method, &format!("{path}?token={token}"), &headers, ORDER);
+            let answer = ask(port, method, &format!("{path}?token={token}"), &headers, &order());
             assert_refused(&answer, 403, &format!("{origin} {path}"));
             assert_eq!(answer.header("access-control-allow-origin"), None);
         }
@@ -161,7 +167,7 @@ fn its_own_page_is_answered() {
     let (port, token) = (server.port(), server.token());
     for (method, path) in paths().0.into_iter().filter(|(_, path)| path != "/api/render") {
         let headers = format!("{}Origin: http://127.0.0.1:{port}\r\n", host(port));
-        let answer = ask(port, method, &format!("{path}?token={token}"), &headers, ORDER);
+        let answer = ask(port, method, &format!("{path}?token={token}"), &headers, &order());
         assert_eq!(answer.status, 200, "{path}: {}", answer.text());
     }
 }

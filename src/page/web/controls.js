@@ -73,19 +73,22 @@ const KEYS = [
   [["q"], "Q", "go away", () => (takeCamera(), viewpoint.approach(1 / 0.9))],
   [["n"], "N", "choose the next body", () => chooseNext(1)],
   [["b"], "B", "choose the body before", () => chooseNext(-1)],
+  [["t"], "T", "the text of the scene", () => element("edit").hidden || element("edit").click()],
   [["r"], "R", "render this frame with POV-Ray", () => renderThis()],
   [["?"], "?", "this list", () => element("keys").showModal()],
 ].filter(([, key]) => CAN_RENDER || key !== "R");
 
 function pressed(event) {
   if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
-  if (event.target.isContentEditable || event.target.matches?.("textarea")) return;
+  // The editor lies in a tree of its own, which hides the element that has the focus.
+  const [target] = event.composedPath();
+  if (target.isContentEditable || target.matches?.("textarea")) return;
   // These keys move the slider of a variable.
-  if (event.target.closest?.("#sliders") && /^( |Arrow.*|Home|End|Page.*)$/.test(event.key)) return;
-  const writes = event.target.matches?.("input:not([type=range]):not([type=checkbox])");
+  if (target.closest?.("#sliders") && /^( |Arrow.*|Home|End|Page.*)$/.test(event.key)) return;
+  const writes = target.matches?.("input:not([type=range]):not([type=checkbox])");
   // In a text field, keys type text. Only the space key stays a command, except in the field for body names.
-  if (writes && (event.key !== " " || event.target === element("body-name"))) return;
-  if (event.target.matches?.("select") && event.key !== " ") return;
+  if (writes && (event.key !== " " || target === element("body-name"))) return;
+  if (target.matches?.("select") && event.key !== " ") return;
   const found = KEYS.find(([keys]) => keys.includes(event.key) || keys.includes(event.key.toLowerCase()));
   if (!found) return;
   event.preventDefault();

@@ -6,6 +6,7 @@ import { element, open } from "./parts.js";
 import { tick } from "./picture.js";
 import { changed, sayProblem } from "./runs.js";
 import { CAN_RENDER, REFUSED, follow } from "./source.js";
+import { listenToText, takeState } from "./text.js";
 
 function begin() {
   const nothing = element("nothing");
@@ -17,6 +18,7 @@ function begin() {
   element("render").hidden = !CAN_RENDER;
   nothing.textContent = "…";
   listen();
+  listenToText();
   // If several states arrive while one is being handled, only the newest is handled next.
   let newest, busy;
   const takeIn = async () => {
@@ -34,6 +36,7 @@ function begin() {
     sayProblem();
   };
   follow((state) => {
+    takeState(state);
     newest = state;
     if (!busy) takeIn();
   }, lost);

@@ -3,6 +3,7 @@
 import { short } from "./math.js";
 import { element, redraw } from "./parts.js";
 import { MOVED, setVariable } from "./source.js";
+import { isEdited, setInText } from "./text.js";
 
 /** The number of steps of a slider whose scene gives none: at least this many. */
 const MIN_STEPS = 100;
@@ -34,8 +35,9 @@ async function send() {
     const [[name, value]] = waiting;
     waiting.delete(name);
     try {
-      await setVariable(name, value);
-      element("sliders-said").textContent = MOVED;
+      const isInText = isEdited();
+      await (isInText ? setInText : setVariable)(name, value);
+      element("sliders-said").textContent = isInText ? "" : MOVED;
     } catch (error) {
       expected.delete(name);
       element("sliders-said").textContent = error.message;

@@ -42,6 +42,17 @@ export async function startVariant(variant) {
   return (await post("/api/variants", variant)).json();
 }
 
+/** How the page edits the text of the scene: when the user opens it; the time without a further key after which it is written, ms. */
+export const TEXT = { isOpen: false, pause: 300 };
+
+/** Returns the file of the scene, its text and the version of the text. */
+export const readText = () => json("/api/text");
+
+/** Writes the text into the file, and returns its version. Fails with status 409 if the file does not have the version `base`. */
+export async function writeText(text, base) {
+  return (await post("/api/save", { text, base })).json();
+}
+
 /** Gives a variable that has a slider another value. */
 export async function setVariable(variable, value) {
   await post("/api/variables", { variable, value });
