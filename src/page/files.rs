@@ -15,6 +15,7 @@ pub const FILES: &[(&str, &str, &[u8])] = &[
     ("/style.css", CSS_TYPE, include_bytes!("web/style.css")),
     ("/icon.svg", "image/svg+xml", include_bytes!("web/icon.svg")),
     ("/main.js", JAVASCRIPT_TYPE, include_bytes!("web/main.js")),
+    ("/chosen_body.js", JAVASCRIPT_TYPE, include_bytes!("web/chosen_body.js")),
     ("/controls.js", JAVASCRIPT_TYPE, include_bytes!("web/controls.js")),
     ("/copied_camera.js", JAVASCRIPT_TYPE, include_bytes!("web/copied_camera.js")),
     ("/dragged_numbers.js", JAVASCRIPT_TYPE, include_bytes!("web/dragged_numbers.js")),

@@ -251,6 +251,37 @@ await tests({
     assert.equal(await page.locator("#tutorial").isVisible(), false);
   },
 
+  async the_trail_and_the_arrows_of_the_chosen_body_are_drawn(all) {
+    const page = await openBall(all);
+    assert.equal(await page.locator("#body-shows").isVisible(), false);
+    await page.locator("#body-name").fill("ball");
+    await page.locator("#body-name").press("Enter");
+    await page.evaluate(() => window.jabuka.seek(20));
+    /** The bytes of the picture once nothing changes it any more. */
+    const picture = async () => {
+      let [last, now] = [undefined, ""];
+      while (last !== now) {
+        last = now;
+        await new Promise((resolve) => setTimeout(resolve, 300));
+        now = await page.evaluate(() => document.getElementById("picture").toDataURL());
+      }
+      return now;
+    };
+    const bare = await picture();
+    const seen = new Set([bare]);
+    // The ball moves evenly, without a force. So there is a trail and a velocity, and no arrow of a force.
+    for (const what of ["trail", "velocity"]) {
+      await page.locator(`#show-${what}`).check();
+      seen.add(await picture());
+    }
+    assert.equal(seen.size, 3);
+    await page.locator("#show-force").check();
+    seen.add(await picture());
+    assert.equal(seen.size, 3);
+    for (const what of ["trail", "velocity", "force"]) await page.locator(`#show-${what}`).uncheck();
+    assert.equal(await picture(), bare);
+  },
+
   async a_link_holds_the_scene(all) {
     const page = await openBall(all);
     const text = BALL.replace("[1, 0, 0]", '["2*pi", 0, 0] # ≈ 2π');

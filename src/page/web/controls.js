@@ -1,5 +1,6 @@
 // Handles the viewer's input: keys, buttons, pointers.
 
+import { listenToChosen } from "./chosen_body.js";
 import { copyCamera } from "./copied_camera.js";
 import { drawn, element, open, panel, player, plots, redraw, viewpoint } from "./parts.js";
 import { sceneCamera } from "./picture.js";
@@ -182,6 +183,7 @@ export function listen() {
     player.seek(open.run.frameAt(time));
     redraw();
   };
+  listenToChosen();
   window.addEventListener("keydown", pressed);
   new ResizeObserver(redraw).observe(element("stage"));
   watchPointers();

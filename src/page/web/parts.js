@@ -16,7 +16,7 @@ export const drawn = { count: 0, run: null, frame: -1, view: null, dirty: true, 
 
 export const player = new Player();
 export const viewpoint = new Viewpoint();
-export const panel = new Panel({ name: element("body-name"), names: element("body-names"), values: element("body-values") });
+export const panel = new Panel({ name: element("body-name"), names: element("body-names"), values: element("body-values"), shows: element("body-shows") });
 export const plots = new Plots({ canvas: element("plot"), choice: element("plotted"), legend: element("legend"), drift: element("drift") });
 export const texts = new Texts(element("texts"));
 

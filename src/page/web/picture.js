@@ -1,5 +1,6 @@
 // Composes the picture of a frame.
 
+import { showChosen } from "./chosen_body.js";
 import { camera as cameraLines, Lines, thing, trail } from "./lines.js";
 import { axes, encoded, isThere, length, short, sub } from "./math.js";
 import { PARTICLE } from "./run.js";
@@ -127,6 +128,7 @@ function drawLines(lines, run, shown, at, view) {
     trail(lines, run, { ...each, palette, radius: each.radius ?? stroke / 2 }, player.position, MOST_POINTS / stage.trails.length);
   });
   shown?.things.forEach((each) => thing(lines, each));
+  showChosen(lines, run, at, player.position);
   if (panel.body !== undefined && !run.description.pieces.every((piece) => piece.body !== panel.body)) {
     mark(lines, view, at(panel.body), run.description.pieces.filter((piece) => piece.body === panel.body && !piece.plane));
   }

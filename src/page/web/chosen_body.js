@@ -1,0 +1,73 @@
+// What the viewer wants to see of the chosen body: its trail, and arrows of its velocity and of the force on it.
+
+import { thing, trail } from "./lines.js";
+import { add, isThere, length, times } from "./math.js";
+import { element, open, panel, redraw } from "./parts.js";
+
+/** The largest number of points of the trail, and of the samples from which the largest value of an arrow is found. */
+const [MOST_POINTS, MOST_SAMPLES] = [6000, 400];
+/** The length of the arrow of a large value, the greatest length of an arrow, and the radius of lines, as parts of the size of the scene. */
+const [ARROW, MOST_ARROW, LINE] = [0.2, 0.4, 0.002];
+/** The part of the samples that have no larger value than a large one. Impacts and jerks have values far above it. */
+const USUAL = 0.9;
+/** The arrows: where their numbers begin among the 15 numbers of a body, and their color. */
+const ARROWS = { velocity: { at: 4, color: [0.08, 0.33, 0.75] }, force: { at: 10, color: [0.85, 0.3, 0.08] } };
+
+/** The run and the body for which large values are known. They are fetched when an arrow is first wanted. */
+let known = {};
+
+const isWanted = (what) => element(`show-${what}`).checked;
+
+async function findLarge(run, body) {
+  known = { run, body };
+  const every = Math.max(1, Math.ceil(run.frames / MOST_SAMPLES));
+  try {
+    const numbers = await run.series(body, 0, run.frames, every);
+    const large = ({ at }) => {
+      const values = Array.from({ length: numbers.length / 15 }, (_, k) => length(numbers.subarray(15 * k + at, 15 * k + at + 3)));
+      const sorted = values.filter((value) => value > 0).sort((a, b) => a - b);
+      return sorted[Math.floor(USUAL * (sorted.length - 1))];
+    };
+    if (known.run !== run || known.body !== body) return;
+    for (const [name, arrow] of Object.entries(ARROWS)) known[name] = large(arrow);
+    known.recorded = run.progress?.recorded;
+    redraw();
+  } catch (error) {
+    known = {};
+    if (error.status !== 404) console.warn(error.message);
+  }
+}
+
+/** Returns the radius of a ball around the center of a body that contains it, m. */
+function reach({ description: { pieces } }, body) {
+  const own = pieces.filter((piece) => piece.body === body && !piece.plane);
+  return Math.max(0, ...own.map((piece) => length(piece.location) + Math.max(...piece.scale)));
+}
+
+/** Adds the lines of the chosen body at a position of the film. `at(body)` returns the pose of a body. */
+export function showChosen(lines, run, at, position) {
+  const { body } = panel;
+  if (body === undefined) return;
+  const { size } = open.painter.space;
+  if (isWanted("trail")) trail(lines, run, { body, radius: LINE * size, color: [0.1, 0.55, 1] }, position, MOST_POINTS);
+  const here = at(body);
+  if (!Object.keys(ARROWS).some(isWanted) || !isThere(here)) return;
+  const isKnown = known.run === run && known.body === body;
+  if (!isKnown || (known.recorded !== undefined && known.recorded !== run.progress?.recorded)) findLarge(run, body);
+  const { numbers, of } = panel.latest ?? {};
+  if (!numbers || of !== run || panel.latest.body !== body) return;
+  for (const [name, { at, color }] of Object.entries(ARROWS)) {
+    const value = Array.from(numbers.subarray(at, at + 3));
+    if (!isWanted(name) || !(known[name] > 0) || !(length(value) > 1e-6 * known[name])) continue;
+    const from = here.slice(0, 3);
+    const long = Math.min((ARROW * length(value)) / known[name], MOST_ARROW) * size;
+    // The length counts from the surface on, so that a large body does not hide the arrow.
+    const to = add(from, times(value, (reach(run, body) + long) / length(value)));
+    thing(lines, { form: "arrow", from, to, radius: 1.5 * LINE * size, color });
+  }
+}
+
+/** Draws the picture again when another line is wanted. */
+export function listenToChosen() {
+  for (const what of ["trail", ...Object.keys(ARROWS)]) element(`show-${what}`).onchange = redraw;
+}
