@@ -92,6 +92,42 @@ await tests({
     assert.equal(await page.evaluate(() => window.jabuka.frames), 26);
   },
 
+  async twenty_faulty_scenes_are_mended_by_a_click_each(all) {
+    const page = await openBall(all);
+    await until(page, (jabuka) => jabuka.editor);
+    const folder = join(dirname(fileURLToPath(import.meta.url)), "../bad");
+    const errors = async () => {
+      await until(page, (jabuka) => jabuka.diagnostics !== null);
+      return page.evaluate(() => window.jabuka.diagnostics.filter(({ severity }) => severity === "error"));
+    };
+    await page.locator(".cm-content").focus();
+    await page.keyboard.press("Control+Shift+M");
+    const action = page.locator(".cm-panel-lint .cm-diagnosticAction").first();
+    const mended = [];
+    for (const name of readdirSync(folder).filter((name) => name.endsWith(".toml")).sort()) {
+      await write(page, readFileSync(join(folder, name), "utf8"));
+      const before = await errors();
+      if (!before.some(({ fix }) => fix?.length && fix.every(({ file }) => file === "ball.toml"))) continue;
+      // The first error is underlined at its place.
+      const { line, column } = before[0];
+      const underlined = await page.evaluate(([line, column]) => {
+        const { view } = window.jabuka.editor;
+        const at = view.domAtPos(view.state.doc.line(line).from + column - 1, 1).node;
+        return Boolean((at.nodeType === 3 ? at.parentElement : at).closest(".cm-lintRange"));
+      }, [line, column]);
+      assert.ok(underlined, name);
+      const text = await page.evaluate(() => window.jabuka.editor.view.state.doc.toString());
+      await action.click();
+      const after = await errors();
+      assert.notEqual(await page.evaluate(() => window.jabuka.editor.view.state.doc.toString()), text, name);
+      const count = (list, { message }) => list.filter((error) => error.message === message).length;
+      assert.ok(before.some((error) => count(after, error) < count(before, error)), `${name}: ${JSON.stringify(after)}`);
+      mended.push(name);
+      if (mended.length === 20) break;
+    }
+    assert.equal(mended.length, 20);
+  },
+
   async keys_are_completed_and_explained(all) {
     const page = await openBall(all);
     await write(page, BALL);

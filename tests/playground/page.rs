@@ -20,6 +20,7 @@ in_the_browser!(
     the_first_visit_shows_a_scene,
     an_edit_is_run_and_an_older_run_is_never_drawn_again,
     an_error_is_marked_at_its_place_and_mended_by_a_click,
+    twenty_faulty_scenes_are_mended_by_a_click_each,
     keys_are_completed_and_explained,
     keys_typed_in_the_editor_do_not_control_the_player,
     a_slider_changes_the_text_and_the_motion,

@@ -1,6 +1,7 @@
 // `window.jabuka`: an interface for programs, such as tests, that control the page or read what it shows.
 
 import { drawn, element, open, panel, player, redraw } from "./parts.js";
+import { diagnostics } from "./text.js";
 
 window.jabuka = {
   get frame() { return player.frame; },
@@ -13,6 +14,7 @@ window.jabuka = {
   get recorded() { return open.run?.progress?.recorded ?? 0; },
   get settled() { return Boolean(open.run?.description.settled); },
   get problem() { return element("problem").hidden || element("problem").classList.contains("mild") ? null : element("problem").textContent; },
+  get diagnostics() { return diagnostics(); },
   get comparison() { return element("comparison").textContent; },
   get selected() { return open.run?.description.bodies[panel.body]?.name ?? null; },
   get drawn() { return { count: drawn.count, run: drawn.run, frame: drawn.frame }; },

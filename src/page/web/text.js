@@ -39,6 +39,9 @@ function choice(label, deed) {
 
 const isRead = () => isWritten && state.text === scene.version;
 
+/** The errors and warnings of the text, or null while the source has not read the text of the page. */
+export const diagnostics = () => (isRead() ? state.diagnostics : null);
+
 /** Takes the text that the source has, in place of that of the page. */
 export async function load() {
   clearTimeout(timer);
