@@ -1,7 +1,7 @@
-// The playground: the page of the preview, with an editor, a shelf of scenes, links and scripts to take along.
+// The playground: the page of the preview, with an editor, a shelf of scenes, and links.
 
 import "../../src/page/web/main.js";
-import { element, open } from "../../src/page/web/parts.js";
+import { element } from "../../src/page/web/parts.js";
 import { make } from "./elements.js";
 import { linkOf, linked } from "./link.js";
 import { makeShelf } from "./shelf.js";
@@ -23,8 +23,7 @@ const said = make("p", { id: "said" });
 said.setAttribute("role", "status");
 const field = make("div", { id: "text" });
 const button = (label, title, deed) => make("button", { type: "button", textContent: label, title, onclick: deed });
-const scripts = button("Scripts", "Save the POV-Ray scripts of all frames as a zip file", takeScripts);
-const tools = make("div", { id: "tools" }, button("Examples", "Choose a scene", () => shelf.show()), button("Copy link", "Copy a link that holds this scene", copyLink), scripts);
+const tools = make("div", { id: "tools" }, button("Examples", "Choose a scene", () => shelf.show()), button("Copy link", "Copy a link that holds this scene", copyLink));
 tools.setAttribute("role", "group");
 tools.setAttribute("aria-label", "Scene");
 const pane = make("section", { id: "editor" }, tools, field, said);
@@ -126,22 +125,6 @@ async function copyLink() {
   } catch {
     say(`The address of this page is the link now: copy it.${others}`);
   }
-}
-
-async function takeScripts() {
-  const { run } = open;
-  if (!run?.description.settled) return say("The scripts are there as soon as the run is finished.");
-  const { save, scriptsOf } = await import("./zip.js");
-  const [name, { views }] = [scene.name, run.description];
-  scripts.disabled = true;
-  try {
-    const zip = await scriptsOf({ id: run.id, frames: run.frames, views }, (part) => say(`The scripts are being made: ${Math.round(100 * part)} %`));
-    save(zip, `${name}.zip`);
-    say(`${name}.zip is saved. POV-Ray renders its scripts: povray animation.ini`);
-  } catch (error) {
-    say(error.message);
-  }
-  scripts.disabled = false;
 }
 
 async function takeFiles(list) {
