@@ -4,7 +4,7 @@ import { createHash } from "node:crypto";
 import { readFileSync, readdirSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
 
-import { filesOf } from "./web/files.js";
+import { unpacked } from "../src/page/web/packed_files.js";
 import { Jabuka } from "./web/module.js";
 
 /** The number of frames whose scripts are made together. */
@@ -40,7 +40,7 @@ for (const scene of scenes) {
   for (let view = 0; view <= views.length; view++) {
     for (let from = 0; from < progress.frames; from += TOGETHER) {
       const frames = { from, to: from + TOGETHER, view };
-      for (const [file, bytes] of filesOf(jabuka.ask({ path: `/api/runs/${current}/scripts`, frames }))) {
+      for (const [file, bytes] of unpacked(jabuka.ask({ path: `/api/runs/${current}/scripts`, frames }))) {
         digests[`${name}/${view ? `${views[view - 1]}/` : ""}${file}`] = createHash("sha256").update(bytes).digest("hex");
       }
     }

@@ -1,8 +1,8 @@
-// The playground: the page of the preview, with an editor, a shelf of scenes, links and scripts to take along.
+// The playground: the page of the preview, with an editor, a shelf of scenes, and links.
 
 import { make } from "../../src/page/web/elements.js";
 import "../../src/page/web/main.js";
-import { element, open } from "../../src/page/web/parts.js";
+import { element } from "../../src/page/web/parts.js";
 import { load, say, sceneText } from "../../src/page/web/text.js";
 import { linkOf, linked } from "./link.js";
 import { makeShelf } from "./shelf.js";
@@ -16,7 +16,6 @@ const FIRST = "newtons_cradle";
 let others = {};
 
 const button = (label, title, deed) => make("button", { type: "button", textContent: label, title, onclick: deed });
-const scripts = button("Scripts", "Save the POV-Ray scripts of all frames as a zip file", takeScripts);
 const shelf = makeShelf(async (name) => {
   await openExample(name);
   history.replaceState(null, "", `#gallery=${name}`);
@@ -69,22 +68,6 @@ async function copyLink() {
   }
 }
 
-async function takeScripts() {
-  const { run } = open;
-  if (!run?.description.settled) return say("The scripts are there as soon as the run is finished.");
-  const { save, scriptsOf } = await import("./zip.js");
-  const [file, { views }] = [`${name()}.zip`, run.description];
-  scripts.disabled = true;
-  try {
-    const zip = await scriptsOf({ id: run.id, frames: run.frames, views }, (part) => say(`The scripts are being made: ${Math.round(100 * part)} %`));
-    save(zip, file);
-    say(`${file} is saved. POV-Ray renders its scripts: povray animation.ini`);
-  } catch (error) {
-    say(error.message);
-  }
-  scripts.disabled = false;
-}
-
 async function takeFiles(list) {
   const files = await Promise.all(Array.from(list, async (file) => [file.name, new Uint8Array(await file.arrayBuffer())]));
   const scenes = files.filter(([file]) => /^[\w-]+\.toml$/.test(file));
@@ -108,7 +91,7 @@ function showParts() {
   document.querySelector("footer").hidden = !shown.includes("player") && !shown.includes("plots");
 }
 
-element("tools").append(button("Examples", "Choose a scene", () => shelf.show()), button("Copy link", "Copy a link that holds this scene", copyLink), scripts, button("Tutorial", "Learn to write a scene, step by step", () => tutorial.begin()));
+element("tools").append(button("Examples", "Choose a scene", () => shelf.show()), button("Copy link", "Copy a link that holds this scene", copyLink), button("Tutorial", "Learn to write a scene, step by step", () => tutorial.begin()));
 element("tools").after(tutorial.pane);
 document.body.append(shelf.dialog);
 showParts();

@@ -11,6 +11,7 @@
 //! | `/api/runs/N/shown?from=A&to=B` | the objects drawn beside the bodies in some frames |
 //! | `/api/runs/N/particles?from=A&to=B` | its particles in some frames |
 //! | `/api/runs/N/scripts?from=A&to=B` | the scripts of some frames, and the files that they include |
+//! | `/api/runs/N/model`, `…/table` | the model and the table that `jabuka export` writes |
 
 use std::sync::Arc;
 
@@ -18,7 +19,8 @@ use serde::{Deserialize, Serialize};
 
 use super::run::PageRun;
 use super::session::Session;
-use super::{Failed, describe, numbers, samples, scripts, shown, swarms};
+use super::{Failed, describe, exports, numbers, samples, scripts, shown, swarms};
+use crate::export::{MODEL, TABLE};
 use crate::font::Weight;
 
 /// The answer to a request.
@@ -123,6 +125,8 @@ pub fn answer_of_run(run: &Arc<PageRun>, what: &str, frames: &Frames) -> Result<
         }
         "shown" => Answer::json(&shown::frames(run, frames.view, recorded)?)?,
         "particles" => Answer::Binary(swarms::frames(run, recorded)?),
+        "model" => Answer::Binary(exports::file(run, &MODEL)?),
+        "table" => Answer::Binary(exports::file(run, &TABLE)?),
         "scripts" => Answer::Binary(scripts::of_frames(run, frames)?),
         _ => return Err(Failed::Gone),
     })

@@ -9,7 +9,7 @@
 //! | a panic, as an error on the page | `panicked` |
 //! | the answers to the page's requests | `answers`, `failed` |
 //! | the data of a run for the page | `describe`, `shown`, `swarms`, `samples` |
-//! | the scripts of a run, for users who take them along | `scripts` |
+//! | the scripts, the table and the model of a run, for users who take them along | `scripts`, `exports` |
 //! | the encoding of frames as bytes | `numbers` |
 //! | the files of the page | `files`, and the folder `web` |
 //!
@@ -43,6 +43,7 @@
 
 mod answers;
 mod describe;
+mod exports;
 mod failed;
 mod files;
 mod host;

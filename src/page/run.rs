@@ -11,7 +11,7 @@ use std::time::Instant;
 use serde::Serialize;
 
 use super::panicked::caught;
-use super::{Host, provisional, swarms};
+use super::{Failed, Host, provisional, swarms};
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::physics::PairCounter;
 use crate::picture::Plan;
@@ -230,6 +230,35 @@ impl PageRun {
         match self.outcome() {
             Some(outcome) => outcome.ok(),
             None => self.provisional.as_ref(),
+        }
+    }
+
+    /// Returns the finished run.
+    ///
+    /// # Errors
+    /// If the run is not finished, or an error has ended it early.
+    pub fn finished(&self) -> Result<Recorded<'_>, Report> {
+        match self.outcome() {
+            Some(Ok(outcome)) => {
+                Ok(Recorded::of_parts(&self.scene, self.recording(), outcome.survey.clone()))
+            }
+            Some(Err(report)) => Err(report.clone()),
+            None => {
+                let message = "the run is not finished: its results are not known yet";
+                Err(Report::of_error(Code::NotFinished, message))
+            }
+        }
+    }
+
+    /// Returns the finished run as a camera sees it: 0 for the main camera, then the views in their order.
+    ///
+    /// # Errors
+    /// If the run is not finished, an error has ended it early, there is no such camera, or a template fails.
+    pub fn seen_by(&self, view: usize) -> Result<Run<'_>, Failed> {
+        let main = Run::of(self.finished()?)?;
+        match view.checked_sub(1) {
+            None => Ok(main),
+            Some(view) => Ok(main.seen_by(self.scene.views.get(view).ok_or(Failed::Gone)?)?),
         }
     }
 

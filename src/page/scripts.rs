@@ -5,28 +5,14 @@ use std::io::Read as _;
 
 use super::{Failed, Frames, PageRun};
 use crate::Run;
-use crate::diagnostic::{Code, Report};
 use crate::emit::{ASSETS, frame_name, shutter_name};
-use crate::simulate::{Frame, Recorded, Selection};
+use crate::simulate::{Frame, Selection};
 
 /// Encodes the scripts of some frames and the files that they include. The files that all frames share come with the first frame of the
 /// run. Each file has the length of its name, its name, the length of its contents, and its contents. The lengths are little-endian 32-bit
 /// numbers. Files that several frames include may come several times.
 pub(super) fn of_frames(run: &PageRun, frames: &Frames) -> Result<Vec<u8>, Failed> {
-    let outcome = match run.outcome() {
-        Some(Ok(outcome)) => outcome,
-        Some(Err(report)) => return Err(report.clone().into()),
-        None => {
-            let message = "the run is not finished: where the camera stands is not known yet";
-            return Err(Report::of_error(Code::NotFinished, message).into());
-        }
-    };
-    let scene = &run.scene;
-    let main = Run::of(Recorded::of_parts(scene, run.recording(), outcome.survey.clone()))?;
-    let view = match frames.view.checked_sub(1) {
-        None => main,
-        Some(view) => main.seen_by(scene.views.get(view).ok_or(Failed::Gone)?)?,
-    };
+    let (scene, view) = (&run.scene, run.seen_by(frames.view)?);
     let mut files = Files::default();
     if frames.from == 0 {
         let all = 0..scene.simulation.timeline.frames();

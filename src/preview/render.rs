@@ -12,7 +12,7 @@ use crate::output::{self, Folder};
 use crate::page::{Failed, PageRun, RunId};
 use crate::render::{Images, Job, PovRay, Quality, Sequence, options};
 use crate::sandbox::Confinement;
-use crate::simulate::Recorded;
+use crate::scene::{Camera, View};
 
 /// Renders frames with POV-Ray, one at a time.
 pub(super) struct Renderer {
@@ -31,9 +31,22 @@ pub(super) struct Wanted {
     /// The index of the camera: 0 for the main camera, then the views in their order.
     #[serde(default)]
     view: usize,
+    /// The camera of the viewer. `None` for a camera of the scene.
+    own: Option<OwnCamera>,
     /// True for an image of the best quality, false for a quick one.
     #[serde(default)]
     fine: bool,
+}
+
+/// A camera of the viewer, as `[camera]` of a scene describes it.
+#[derive(Clone, Debug, Deserialize)]
+struct OwnCamera {
+    /// The location of the camera, m.
+    location: [f64; 3],
+    /// The point in the middle of the picture, m.
+    look_at: [f64; 3],
+    /// The horizontal field of view, degrees.
+    angle: f64,
 }
 
 /// The stop flag of a client's request for an image. When the client closes the connection, the value is dropped, which stops the
@@ -53,7 +66,28 @@ impl Drop for Wish {
     }
 }
 
+impl OwnCamera {
+    /// Returns the view of the scene that has this camera.
+    fn view(&self) -> Result<View, Report> {
+        let angle = self.angle.clamp(0.1, 179.9);
+        let camera = Camera::standing(self.location.into(), self.look_at.into(), angle);
+        if camera.is_at_target() {
+            let message = "the camera is at the point that it looks at";
+            return Err(Report::of_error(Code::CameraAtLookAt, message));
+        }
+        Ok(View { name: "own".to_owned(), camera })
+    }
+}
+
 impl Wanted {
+    /// Returns the finished run as the wanted camera sees it.
+    fn seen<'a>(&self, run: &'a PageRun) -> Result<Run<'a>, Failed> {
+        match &self.own {
+            Some(own) => Ok(Run::of(run.finished()?)?.seen_by(&own.view()?)?),
+            None => run.seen_by(self.view),
+        }
+    }
+
     /// Returns the id of the requested run.
     pub(super) fn run(&self) -> RunId {
         self.run.parse().unwrap_or_default()
@@ -88,20 +122,12 @@ impl Renderer {
         wanted: &Wanted,
         stop: &AtomicBool,
     ) -> Result<Vec<u8>, Failed> {
-        let Some(Ok(outcome)) = run.outcome() else {
-            let message = "the run is not finished: where the camera stands is not known yet";
-            return Err(Report::of_error(Code::NotFinished, message).into());
-        };
+        let seen = wanted.seen(run)?;
         let _turn = self.one_at_a_time.lock().unwrap_or_else(PoisonError::into_inner);
         if stop.load(Ordering::Relaxed) {
             return Err(Failed::Gone);
         }
         let scene = &run.scene;
-        let recorded = Recorded::of_parts(scene, run.recording(), outcome.survey.clone());
-        let whole = Run::of(recorded)?;
-        let view = wanted.view.checked_sub(1).and_then(|view| scene.views.get(view));
-        let seen = view.map(|view| whole.seen_by(view)).transpose();
-        let seen = seen?.unwrap_or(whole);
         // A hidden folder keeps these files apart from the scripts of other commands.
         let folder = Folder::open(&Path::new("out/.preview").join(&scene.name))?;
         let time = scene.simulation.timeline.time(wanted.frame.min(scene.simulation.timeline.frames() - 1));

@@ -187,6 +187,34 @@ pub struct Camera {
     pub shutter: Option<Shutter>,
 }
 
+impl Camera {
+    /// Returns a camera that stands still, with a horizontal field of view in degrees.
+    #[cfg(feature = "preview")]
+    pub(crate) fn standing(location: DVec3, look_at: DVec3, angle: f64) -> Camera {
+        Camera {
+            location: Some(location),
+            look_at: Some(look_at),
+            up: None,
+            roll: 0.0,
+            motion: CameraMotion::default(),
+            auto: None,
+            projection: Projection::Perspective { angle },
+            eye: 0.0,
+            blur: None,
+            shutter: None,
+        }
+    }
+
+    /// Returns true if the camera is given the same point as location and as target. POV-Ray draws nothing useful if rounding errors exceed
+    /// their distance.
+    pub(crate) fn is_at_target(&self) -> bool {
+        let points = self.location.zip(self.look_at);
+        points.is_some_and(|(location, look_at)| {
+            location.distance(look_at) <= 1e-9 * location.abs().max(look_at.abs()).max_element()
+        })
+    }
+}
+
 /// The part of the motion that a camera without a location shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Auto {

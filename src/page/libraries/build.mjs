@@ -9,7 +9,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const bundles = join(here, "../web/libraries");
 
 /** The entry files. Each becomes a bundle with the same name. */
-const ENTRIES = ["codemirror.js", "video.js"];
+const ENTRIES = ["codemirror.js", "video.js", "zip.js"];
 
 /** Returns the licences of the packages that an import of the entry files reaches. */
 function licences(inputs) {

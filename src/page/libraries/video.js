@@ -1,3 +1,3 @@
 // What the recorder of films uses of Mediabunny.
 
-export { BufferTarget, CanvasSource, Output, WebMOutputFormat, Mp4OutputFormat, getFirstEncodableVideoCodec } from "mediabunny";
+export { BufferTarget, CanvasSource, Mp4OutputFormat, Output, Quality, WebMOutputFormat, getFirstEncodableVideoCodec } from "mediabunny";

@@ -4,8 +4,8 @@ import { thing, trail } from "./lines.js";
 import { add, isThere, length, times } from "./math.js";
 import { element, open, panel, redraw } from "./parts.js";
 
-/** The largest number of points of the trail, and of the samples from which the largest value of an arrow is found. */
-const [MOST_POINTS, MOST_SAMPLES] = [6000, 400];
+/** The largest number of points of the trail, and of the moments at which the arrows are known. */
+const [MOST_POINTS, MOST_SAMPLES] = [6000, 4000];
 /** The length of the arrow of a large value, the greatest length of an arrow, and the radius of lines, as parts of the size of the scene. */
 const [ARROW, MOST_ARROW, LINE] = [0.2, 0.4, 0.002];
 /** The part of the samples that have no larger value than a large one. Impacts and jerks have values far above it. */
@@ -13,14 +13,15 @@ const USUAL = 0.9;
 /** The arrows: where their numbers begin among the 15 numbers of a body, and their color. */
 const ARROWS = { velocity: { at: 4, color: [0.08, 0.33, 0.75] }, force: { at: 10, color: [0.85, 0.3, 0.08] } };
 
-/** The run and the body for which large values are known. They are fetched when an arrow is first wanted. */
+/** The motion of the body for which an arrow was wanted last. It is fetched when an arrow is first wanted, and again when the run is finished. */
 let known = {};
 
 const isWanted = (what) => element(`show-${what}`).checked;
 
-async function findLarge(run, body) {
-  known = { run, body };
+async function fetchMotion(run, body) {
   const every = Math.max(1, Math.ceil(run.frames / MOST_SAMPLES));
+  const motion = { run, body, every, settled: Boolean(run.progress?.settled) };
+  known = motion;
   try {
     const numbers = await run.series(body, 0, run.frames, every);
     const large = ({ at }) => {
@@ -28,12 +29,10 @@ async function findLarge(run, body) {
       const sorted = values.filter((value) => value > 0).sort((a, b) => a - b);
       return sorted[Math.floor(USUAL * (sorted.length - 1))];
     };
-    if (known.run !== run || known.body !== body) return;
-    for (const [name, arrow] of Object.entries(ARROWS)) known[name] = large(arrow);
-    known.recorded = run.progress?.recorded;
+    Object.assign(motion, { numbers, large: Object.fromEntries(Object.entries(ARROWS).map(([name, arrow]) => [name, large(arrow)])) });
     redraw();
   } catch (error) {
-    known = {};
+    if (known === motion) known = {};
     if (error.status !== 404) console.warn(error.message);
   }
 }
@@ -52,15 +51,16 @@ export function showChosen(lines, run, at, position) {
   if (isWanted("trail")) trail(lines, run, { body, radius: LINE * size, color: [0.1, 0.55, 1] }, position, MOST_POINTS);
   const here = at(body);
   if (!Object.keys(ARROWS).some(isWanted) || !isThere(here)) return;
-  const isKnown = known.run === run && known.body === body;
-  if (!isKnown || (known.recorded !== undefined && known.recorded !== run.progress?.recorded)) findLarge(run, body);
-  const { numbers, of } = panel.latest ?? {};
-  if (!numbers || of !== run || panel.latest.body !== body) return;
+  const isNew = known.run !== run || known.body !== body || known.settled !== Boolean(run.progress?.settled);
+  if (isNew) fetchMotion(run, body);
+  const { numbers, large, every } = known;
+  const sample = 15 * Math.round(position / every);
+  if (!(sample < numbers?.length)) return;
   for (const [name, { at, color }] of Object.entries(ARROWS)) {
-    const value = Array.from(numbers.subarray(at, at + 3));
-    if (!isWanted(name) || !(known[name] > 0) || !(length(value) > 1e-6 * known[name])) continue;
+    const value = Array.from(numbers.subarray(sample + at, sample + at + 3));
+    if (!isWanted(name) || !(large[name] > 0) || !(length(value) > 1e-6 * large[name])) continue;
     const from = here.slice(0, 3);
-    const long = Math.min((ARROW * length(value)) / known[name], MOST_ARROW) * size;
+    const long = Math.min((ARROW * length(value)) / large[name], MOST_ARROW) * size;
     // The length counts from the surface on, so that a large body does not hide the arrow.
     const to = add(from, times(value, (reach(run, body) + long) / length(value)));
     thing(lines, { form: "arrow", from, to, radius: 1.5 * LINE * size, color });

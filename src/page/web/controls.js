@@ -6,6 +6,7 @@ import { drawn, element, open, panel, player, plots, redraw, viewpoint } from ".
 import { sceneCamera } from "./picture.js";
 import { renderThis } from "./render.js";
 import { refresh } from "./runs.js";
+import { prepareSaving } from "./save.js";
 import { CAN_RENDER } from "./source.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 10];
@@ -166,6 +167,7 @@ export function listen() {
   element("view").onchange = act(() => (open.view = Number(element("view").value)));
   element("render").onclick = renderThis;
   element("image-close").onclick = act(() => (element("image").hidden = true));
+  prepareSaving();
   element("help").onclick = () => element("keys").showModal();
   for (const id of ["integrator", "step", "other-integrator", "other-step"]) {
     element(id).onchange = async () => {

@@ -1,4 +1,4 @@
-// Copies the viewer's camera as a table of the scene language.
+// The viewer's camera as one of the scene: as a table of the scene language that can be copied, and for images by POV-Ray.
 
 import { element, open, viewpoint } from "./parts.js";
 
@@ -7,10 +7,15 @@ const DIGITS = 7;
 
 const written = (number) => `${Number(number.toPrecision(DIGITS))}`;
 
-/** Returns the table `[camera]` that shows what the viewer sees. */
-export function cameraText() {
+/** Returns the camera of the scene that shows what the viewer sees: location and target, m, and horizontal angle, degrees. */
+export function ownCamera() {
   const canvas = element("picture");
-  const { location, look_at, angle } = viewpoint.camera(canvas.clientWidth, canvas.clientHeight, open.run.description.size);
+  return viewpoint.camera(canvas.clientWidth, canvas.clientHeight, open.run.description.size);
+}
+
+/** Returns the table `[camera]` that shows what the viewer sees. */
+function cameraText() {
+  const { location, look_at, angle } = ownCamera();
   // A coordinate that is only a rounding error from 0 is 0.
   const least = 1e-9 * viewpoint.distance;
   const point = (p) => `[${p.map((x) => written(Math.abs(x) < least ? 0 : x)).join(", ")}]`;

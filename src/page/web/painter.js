@@ -40,6 +40,15 @@ export class Painter {
     gl.enable(gl.DEPTH_TEST);
   }
 
+  /** Gives the picture a size in pixels. */
+  resize(width, height) {
+    const { canvas, gl } = this;
+    if (canvas.width !== width) canvas.width = width;
+    if (canvas.height !== height) canvas.height = height;
+    // A graphics processor that has no room for a picture makes it smaller.
+    this.isWhole = gl.drawingBufferWidth === width && gl.drawingBufferHeight === height;
+  }
+
   /** Uploads the base shapes and bodies of a run. */
   take(run) {
     const { gl } = this;

@@ -27,7 +27,6 @@ export class Panel {
     this.body = body;
     this.blocks.clear();
     this.name.value = this.run?.description.bodies[body]?.name ?? "";
-    this.latest = undefined;
     if (body === undefined) this.values.replaceChildren();
     this.shows.hidden = body === undefined;
     this.chosen(body);
@@ -55,8 +54,6 @@ export class Panel {
       return;
     }
     const n = known.subarray(at, at + 15);
-    // The numbers that the panel shows, for what is drawn at the body.
-    this.latest = { of: run, body, numbers: n };
     const description = run.description.bodies[body];
     const three = (i) => Array.from(n.subarray(i, i + 3));
     // A component that differs from zero only by a rounding error is shown as 0.

@@ -5,6 +5,7 @@ import { camera as cameraLines, Lines, thing, trail } from "./lines.js";
 import { axes, encoded, isThere, length, short, sub } from "./math.js";
 import { PARTICLE } from "./run.js";
 import { drawn, element, open, panel, player, plots, texts, viewpoint } from "./parts.js";
+import { layout } from "./texts.js";
 
 /** The largest number of points of all trails together. */
 const MOST_POINTS = 60_000;
@@ -48,43 +49,15 @@ function nearestTo(run, at, eye) {
   return nearest;
 }
 
+/** Draws the present position of the film on the page. */
 function draw() {
-  const { run } = open;
-  if (!run || !open.painter?.batches.run) return;
-  const { position, frame } = player;
-  run.want(frame, open.view);
-  const at = run.posesAt(position);
-  if (!at) return;
-  // While paused, a frame is drawn only when all of its data has been fetched.
-  const present = run.shownIn(frame, open.view);
-  const particles = run.description.particles ? run.particlesIn(frame) : NONE;
-  if (!player.playing && ((run.hasShown && !present) || !particles)) return;
-  // While playing, missing data is replaced by that of the last complete frame of the same run and camera.
-  if (present) run.latest = { view: open.view, shown: present };
-  const shown = present ?? (run.latest?.view === open.view ? run.latest.shown : undefined);
-  drawn.dirty = false;
   const canvas = element("picture");
-  const scale = Math.min(2, window.devicePixelRatio || 1);
-  const [width, height] = [canvas.clientWidth, canvas.clientHeight];
-  if (canvas.width !== Math.round(width * scale) || canvas.height !== Math.round(height * scale)) {
-    canvas.width = Math.round(width * scale);
-    canvas.height = Math.round(height * scale);
-  }
-  const stage = run.description.stage;
-  const camera = !present && shown ? shown.camera : sceneCamera(run, position);
-  const view = viewpoint.view(camera, open.painter.space, width, height, run.description.size, (eye) => nearestTo(run, at, eye));
-  const drawnAt = (body) => (shown?.drawn.length && !shown.drawn[body] ? NOWHERE : at(body));
-  open.painter.place("run", drawnAt, (body) => shown?.scale[body] ?? 1);
-  open.painter.look(shown, stage?.maps ?? []);
-  if (particles) open.painter.scatter(particles);
-  const lines = new Lines();
-  streaks(lines, open.painter.scattered ?? NONE);
-  drawLines(lines, run, shown, at, view);
-  if (viewpoint.own && stage && !camera.width) outlineCamera(lines, camera, run.description.size);
-  strobes(run, position, at);
-  if (open.other) placeOther(run);
-  open.painter.draw(view, shown?.lights ?? stage?.lights ?? [], lines, drawnAt);
-  texts.show(shown, view, open.painter.space, (body) => at(body).slice(0, 3), triads(run, shown, at), stage?.plots ?? [], run.fonts);
+  const picture = compose({ width: canvas.clientWidth, height: canvas.clientHeight, scale: Math.min(2, window.devicePixelRatio || 1) });
+  if (!picture) return;
+  const { run, view, layout } = picture;
+  const { position, frame } = player;
+  drawn.dirty = false;
+  texts.show(layout);
   const film = element("film");
   film.hidden = viewpoint.own;
   const [left, top, w, h] = view.rectangle;
@@ -98,6 +71,52 @@ function draw() {
   panel.show(frame);
   Object.assign(drawn, { count: drawn.count + 1, run: run.id, frame, position, view });
   for (const one of drawn.waiting.splice(0)) if (!one()) drawn.waiting.push(one);
+}
+
+/**
+ * Draws the present position of the film into the canvas. The picture is `width` x `height` pixels of a page, each `scale` pixels of the canvas
+ * wide. Returns its run, its view, and what stands over it (`layout`); undefined while its data are being fetched. `seen` is the aspect ratio of
+ * the picture on the page, for a picture that is saved: that one has no marks of the page, and shows at least the same part of the scene.
+ */
+export function compose({ width, height, scale, seen }) {
+  const { run } = open;
+  if (!run || !open.painter?.batches.run) return undefined;
+  const { position, frame } = player;
+  run.want(frame, open.view);
+  const at = run.posesAt(position);
+  if (!at) return undefined;
+  // While paused, a frame is drawn only when all of its data has been fetched.
+  const present = run.shownIn(frame, open.view);
+  const particles = run.description.particles ? run.particlesIn(frame) : NONE;
+  if (!player.playing && ((run.hasShown && !present) || !particles)) return undefined;
+  // While playing, missing data is replaced by that of the last complete frame of the same run and camera.
+  if (present) run.latest = { view: open.view, shown: present };
+  const shown = present ?? (run.latest?.view === open.view ? run.latest.shown : undefined);
+  open.painter.resize(Math.round(width * scale), Math.round(height * scale));
+  const stage = run.description.stage;
+  const camera = !present && shown ? shown.camera : sceneCamera(run, position);
+  const view = viewpoint.view(camera, open.painter.space, width, height, run.description.size, (eye) => nearestTo(run, at, eye), seen);
+  const drawnAt = (body) => (shown?.drawn.length && !shown.drawn[body] ? NOWHERE : at(body));
+  open.painter.place("run", drawnAt, (body) => shown?.scale[body] ?? 1);
+  open.painter.look(shown, stage?.maps ?? []);
+  if (particles) open.painter.scatter(particles);
+  const lines = new Lines();
+  streaks(lines, open.painter.scattered ?? NONE);
+  drawLines(lines, run, shown, at);
+  if (!seen) markPage(lines, run, camera, at, view);
+  strobes(run, position, at);
+  if (open.other) placeOther(run);
+  open.painter.draw(view, shown?.lights ?? stage?.lights ?? [], lines, drawnAt);
+  const over = layout(shown, view, open.painter.space, (body) => at(body).slice(0, 3), triads(run, shown, at), stage?.plots ?? [], run.fonts);
+  return { run, view, layout: over };
+}
+
+/** Adds the marks of the page: around the chosen body, and the outline of the scene's camera as the viewer's own sees it. */
+function markPage(lines, run, camera, at, view) {
+  if (panel.body !== undefined && !run.description.pieces.every((piece) => piece.body !== panel.body)) {
+    mark(lines, view, at(panel.body), run.description.pieces.filter((piece) => piece.body === panel.body && !piece.plane));
+  }
+  if (viewpoint.own && run.description.stage && !camera.width) outlineCamera(lines, camera, run.description.size);
 }
 
 /** Returns the triads of axes to draw: bodies that are triads, and the axes drawn on other bodies. */
@@ -118,7 +137,7 @@ function streaks(lines, particles) {
   }
 }
 
-function drawLines(lines, run, shown, at, view) {
+function drawLines(lines, run, shown, at) {
   const stage = run.description.stage;
   const grid = shown?.grid ?? stage?.grids[Math.min(open.view, stage.grids.length - 1)];
   if (grid) thing(lines, grid);
@@ -129,9 +148,6 @@ function drawLines(lines, run, shown, at, view) {
   });
   shown?.things.forEach((each) => thing(lines, each));
   showChosen(lines, run, at, player.position);
-  if (panel.body !== undefined && !run.description.pieces.every((piece) => piece.body !== panel.body)) {
-    mark(lines, view, at(panel.body), run.description.pieces.filter((piece) => piece.body === panel.body && !piece.plane));
-  }
 }
 
 /** Returns the colors of a color map, in sRGB. */
@@ -207,10 +223,10 @@ function status(run) {
 export function tick(now) {
   const seconds = before === undefined ? 0 : (now - before) / 1000;
   before = now;
-  if (player.playing) {
+  if (player.playing && !open.saving) {
     player.advance(seconds);
     drawn.dirty = true;
   }
-  if (drawn.dirty) draw();
+  if (drawn.dirty && !open.saving) draw();
   requestAnimationFrame(tick);
 }

@@ -1,6 +1,7 @@
 // Renders the current frame with POV-Ray, and shows the image beside the picture.
 
-import { element, open, player, redraw } from "./parts.js";
+import { ownCamera } from "./copied_camera.js";
+import { element, open, player, redraw, viewpoint } from "./parts.js";
 import { renderFrame } from "./source.js";
 
 export async function renderThis() {
@@ -8,7 +9,10 @@ export async function renderThis() {
   if (!run || open.rendering) return;
   player.pause();
   redraw();
-  const frame = player.frame;
+  const { frame } = player;
+  // The camera of the scene, or the viewer's own.
+  const own = viewpoint.own ? ownCamera() : undefined;
+  const what = `frame ${frame}${own ? ", own camera" : ""}`;
   const [button, image, said, problem] = ["render", "rendered", "render-status", "render-problem"].map(element);
   element("image").hidden = false;
   open.rendering = true;
@@ -16,16 +20,16 @@ export async function renderThis() {
   problem.hidden = true;
   try {
     for (const fine of [false, true]) {
-      said.textContent = `frame ${frame}: ${fine ? "a draft; the final image is being made …" : "a draft is being made …"}`;
-      const bytes = await renderFrame({ run: run.id, frame, view: open.view, fine });
+      said.textContent = `${what}: ${fine ? "a draft; the final image is being made …" : "a draft is being made …"}`;
+      const bytes = await renderFrame({ run: run.id, frame, view: open.view, own, fine });
       URL.revokeObjectURL(image.src);
       image.src = URL.createObjectURL(bytes);
-      image.alt = `Frame ${frame} by POV-Ray`;
+      image.alt = `Frame ${frame} by POV-Ray${own ? ", seen by your own camera" : ""}`;
       await image.decode();
     }
-    said.textContent = `frame ${frame}, final`;
+    said.textContent = `${what}, final`;
   } catch (error) {
-    said.textContent = `frame ${frame}`;
+    said.textContent = what;
     problem.textContent = error.message;
     problem.hidden = false;
   }

@@ -4,44 +4,43 @@ import { css } from "./math.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 
-function shape(name, attributes) {
+function element(name, attributes) {
   const made = document.createElementNS(SVG, name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
   return made;
 }
 
 /**
- * Returns an SVG with all plots in a picture `width` pixels wide. `now` has, for each plot, its bars, and for each curve the number of points to
- * draw and its place.
+ * Returns what is drawn of each plot in a picture `width` pixels wide: its name, and its shapes in order. Each shape is an element of SVG: its name
+ * and its attributes. The points of a curve are a list, and a strip is filled with `colors`, from left to right. `now` has, for each plot, its
+ * bars, and for each curve the number of points to draw and its place.
  */
-export function scenePlots(plots, now, place, width) {
-  const svg = shape("svg", { class: "plots" });
+export function plotShapes(plots, now, place, width) {
   // The coordinates of the image plane go from -1 to 1 across the picture.
   const pixels = (length) => (length / 2) * width;
-  plots.forEach((plot, number) => {
+  return plots.map((plot, number) => {
     const [left, bottom] = place(plot.left, plot.bottom);
     const at = ([x, y]) => [left + pixels(x), bottom - pixels(y)];
     const [wide, high] = plot.size.map(pixels);
-    const group = shape("g", { "data-plot": plot.name });
-    group.append(shape("rect", { x: left, y: bottom - high, width: wide, height: high, fill: css(plot.paper), "fill-opacity": 0.9 }));
-    if (plot.strip) group.append(...strip(plot.strip, `colors-${number}`, at));
+    const shapes = [["rect", { x: left, y: bottom - high, width: wide, height: high, fill: css(plot.paper), "fill-opacity": 0.9 }]];
+    const box = ({ from, to, ...more }) => {
+      const [[x, below], [right, y]] = [at(from), at(to)];
+      shapes.push(["rect", { ...more, x, y, width: right - x, height: below - y }]);
+    };
+    if (plot.strip) box({ from: plot.strip.from, to: plot.strip.to, colors: plot.strip.colors.map(css) });
     const rule = ({ from, to, color }) => {
       const [[x1, y1], [x2, y2]] = [at(from), at(to)];
-      group.append(shape("line", { x1, y1, x2, y2, stroke: css(color), "stroke-width": Math.max(0.9, pixels(0.0015)) }));
+      shapes.push(["line", { x1, y1, x2, y2, stroke: css(color), "stroke-width": Math.max(0.9, pixels(0.0015)) }]);
     };
     plot.lines.filter((line) => !line.is_axis).forEach(rule);
-    for (const { from, to, color } of now?.[number]?.bars ?? []) {
-      const [[x, bottom], [right, y]] = [at(from), at(to)];
-      group.append(shape("rect", { class: "bar", x, y, width: right - x, height: bottom - y, fill: css(color) }));
-    }
+    for (const { from, to, color } of now?.[number]?.bars ?? []) box({ from, to, class: "bar", fill: css(color) });
     plot.lines.filter((line) => line.is_axis).forEach(rule);
     const stroke = Math.max(1.5, pixels(0.0064));
     plot.curves.forEach((curve, k) => {
       const { count, here } = now?.[number]?.curves[k] ?? { count: 0, here: null };
       const draw = (points, color) => {
         for (const part of parts(points)) {
-          const line = { points: part.map((point) => at(point).join()).join(" "), fill: "none", stroke: css(color), "stroke-width": stroke };
-          group.append(shape("polyline", { ...line, "stroke-linejoin": "round", "stroke-linecap": "round" }));
+          shapes.push(["polyline", { points: part.map(at), fill: "none", stroke: css(color), "stroke-width": stroke, "stroke-linejoin": "round", "stroke-linecap": "round" }]);
         }
       };
       if (curve.pale) draw(curve.points, curve.pale);
@@ -50,20 +49,37 @@ export function scenePlots(plots, now, place, width) {
       draw(past, curve.color);
       if (here) {
         const [cx, cy] = at(here);
-        group.append(shape("circle", { cx, cy, r: Math.max(2, pixels(plot.dot)), fill: css(curve.color) }));
+        shapes.push(["circle", { cx, cy, r: Math.max(2, pixels(plot.dot)), fill: css(curve.color) }]);
       }
     });
+    return { name: plot.name, shapes };
+  });
+}
+
+/** Returns an SVG with the shapes of all plots. */
+export function scenePlots(plots) {
+  const svg = element("svg", { class: "plots" });
+  plots.forEach(({ name, shapes }, number) => {
+    const group = element("g", { "data-plot": name });
+    for (const [kind, { points, colors, ...attributes }] of shapes) {
+      if (points) attributes.points = points.map((point) => point.join()).join(" ");
+      if (colors) {
+        const id = `colors-${number}`;
+        group.append(gradient(colors, id));
+        attributes.fill = `url(#${id})`;
+      }
+      group.append(element(kind, attributes));
+    }
     svg.append(group);
   });
   return svg;
 }
 
-/** Returns the strip of a color bar, and the gradient with this name that fills it. */
-function strip({ from, to, colors }, id, at) {
-  const [[x, below], [right, y]] = [at(from), at(to)];
-  const gradient = shape("linearGradient", { id });
-  colors.forEach((color, k) => gradient.append(shape("stop", { offset: k / (colors.length - 1), "stop-color": css(color) })));
-  return [gradient, shape("rect", { x, y, width: right - x, height: below - y, fill: `url(#${id})` })];
+/** Returns a gradient through some colors, from left to right. */
+function gradient(colors, id) {
+  const made = element("linearGradient", { id });
+  colors.forEach((color, k) => made.append(element("stop", { offset: k / (colors.length - 1), "stop-color": color })));
+  return made;
 }
 
 /** Divides a curve at its gaps. */

@@ -67,12 +67,13 @@ export class Viewpoint {
 
   /**
    * Computes the matrices and vectors for drawing. The picture has `width` x `height` pixels, and the film's rectangle fits into it.
-   * `nearest(eye)` returns the distance to the nearest object, m.
+   * `nearest(eye)` returns the distance to the nearest object, m. `seen` is the aspect ratio of the picture on the page, for a picture that is
+   * saved: that one shows at least the same part of the scene, and has no margin around the film's rectangle.
    */
-  view(camera, { center, size }, width, height, film, nearest) {
+  view(camera, { center, size }, width, height, film, nearest, seen) {
     const [w, h] = film;
     const aspect = this.own ? width / height : w / h;
-    const scale = Math.min(width / w, height / h) * (Math.abs(width / height - w / h) < 0.01 ? 1 : 0.96);
+    const scale = Math.min(width / w, height / h) * (seen || Math.abs(width / height - w / h) < 0.01 ? 1 : 0.96);
     const rectangle = this.own ? [0, 0, width, height] : [(width - w * scale) / 2, (height - h * scale) / 2, w * scale, h * scale];
     const location = this.own ? this.location : camera.location;
     const aim = this.own ? this.aim : camera.look_at;
@@ -91,7 +92,7 @@ export class Viewpoint {
       tangentY = tangentX / aspect;
       projection = orthographic(tangentX * moreX, tangentY * moreY, -reach, reach);
     } else {
-      tangentX = this.own ? this.tangentX(aspect) : Math.tan((Math.min(camera.angle, 179) * Math.PI) / 360);
+      tangentX = this.own ? this.tangentX(seen ?? aspect) * Math.max(1, aspect / (seen ?? aspect)) : Math.tan((Math.min(camera.angle, 179) * Math.PI) / 360);
       tangentY = tangentX / aspect;
       projection = perspective(tangentX * moreX, tangentY * moreY, near, reach);
     }

@@ -188,8 +188,7 @@ fn camera(tables: &[Keys<'_>], known: Known<'_, '_>, context: &mut Context<'_>) 
         shutter: open.map(|open| Shutter { open, samples: of(&camera::SAMPLES.spec).get(&camera::SAMPLES) }),
     };
     if let (Some(location), Some(look_at)) = (camera.location, camera.look_at) {
-        // POV-Ray draws nothing useful if rounding errors exceed the distance from the camera to its target.
-        let near = location.distance(look_at) <= 1e-9 * location.abs().max(look_at.abs()).max_element();
+        let near = camera.is_at_target();
         if near {
             let error =
                 Diagnostic::error(Code::CameraAtLookAt, "the camera is at the point that it looks at");

@@ -1,18 +1,17 @@
-// The scripts of the shown run as a zip file.
+// The scripts of a run as a zip file.
 
-import { Zip, ZipDeflate } from "fflate";
-
-import { filesOf } from "./files.js";
+import { unpacked } from "./packed_files.js";
 import { binary } from "./source.js";
 
 /** The number of frames whose scripts are made together. */
 const TOGETHER = 50;
 
 /**
- * Returns a zip file with all that `jabuka compile` writes for a run, except its manifest. `views` are the names of the cameras besides the main
- * one: each has a folder. `tell` receives the part that is done, from 0 to 1.
+ * Returns a zip file with all that `jabuka compile` writes for a run, except its manifest. Each camera besides the main one has a folder. `tell`
+ * receives the part that is done, from 0 to 1. `signal` ends the work.
  */
-export async function scriptsOf({ id, frames, views }, tell) {
+export async function scriptsZip({ id, frames, description: { views } }, { tell, signal }) {
+  const { Zip, ZipDeflate } = await import("./libraries/zip.js");
   const parts = [];
   const zip = new Zip((error, part) => {
     if (error) throw error;
@@ -23,7 +22,8 @@ export async function scriptsOf({ id, frames, views }, tell) {
     const known = new Set();
     for (let from = 0; from < frames; from += TOGETHER) {
       const bytes = new Uint8Array(await binary(`/api/runs/${id}/scripts`, { from, to: from + TOGETHER, view }));
-      for (const [name, contents] of filesOf(bytes)) {
+      signal.throwIfAborted();
+      for (const [name, contents] of unpacked(bytes)) {
         if (known.has(name)) continue;
         known.add(name);
         // Equal scripts give equal files, so the time of each is a fixed one.
@@ -36,13 +36,4 @@ export async function scriptsOf({ id, frames, views }, tell) {
   }
   zip.end();
   return new Blob(parts, { type: "application/zip" });
-}
-
-/** Saves a file on the reader's machine. */
-export function save(blob, name) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }

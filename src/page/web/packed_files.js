@@ -1,7 +1,7 @@
-// Reads files that the module sends together.
+// Unpacks files that a source sends together, such as the scripts of a run.
 
 /** Yields the name and the bytes of each file. */
-export function* filesOf(bytes) {
+export function* unpacked(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   let at = 0;
   const take = () => {

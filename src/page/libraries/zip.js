@@ -1,0 +1,3 @@
+// What the page uses of fflate to make zip files.
+
+export { Zip, ZipDeflate } from "fflate";
