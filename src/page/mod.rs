@@ -29,7 +29,9 @@
 //!
 //! # The page
 //!
-//! - The page is plain modules and WebGL2, without a library and a build step.
+//! - The page is plain modules and WebGL2, without a build step. Its libraries are committed bundles (`web/libraries`), which are loaded when
+//!   they are needed.
+//! - A picture that is saved is drawn as one of the page, in another size; what stands over it is painted to a canvas (`web/overlay.js`).
 //! - Each run has a unique number. The page requests the frames of a run in pieces of at most 2 MB, and keeps 256 MB of them. If the run has
 //!   been replaced, the answer says so, and the page continues with the run that the session has announced. All that the page remembers of a
 //!   picture belongs to the object of its run, so nothing of an earlier run is drawn.
