@@ -1,6 +1,7 @@
 // Tests of the static page: it simulates scenes in a worker, and nothing leaves the browser.
 
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { readFileSync, readdirSync, statSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, relative } from "node:path";
@@ -43,6 +44,51 @@ async function saved(page, button, name) {
   assert.equal((await download).suggestedFilename(), name);
   await page.locator("#save-said", { hasText: `${name} is saved` }).waitFor();
   return readFileSync(await (await download).path());
+}
+
+/** Opens the page with a ball that has a red label, at a frame of its run, and the menu `Save`. */
+async function openMenu(all, frame) {
+  const page = await openBall(all);
+  await write(page, `${BALL}\n[label.name]\nbody = "ball"\ntext = "MMM"\ncolor = [1, 0, 0]\nsize = 0.2\n`);
+  await until(page, (jabuka) => jabuka.settled && document.getElementById("texts").textContent === "MMM");
+  await page.evaluate((frame) => (window.jabuka.seek(frame), window.jabuka.whenDrawn()), frame);
+  await page.getByRole("button", { name: "Save" }).click();
+  return page;
+}
+
+/** Presses the button of the film, with frames from `from` to `to`, and returns the film. */
+async function savedFilm(page, { size, format, from, to }) {
+  await page.locator("#film-size").selectOption(size.join(" "));
+  await page.locator("#film-format").selectOption(format);
+  await page.getByLabel("Frames").fill(`${from}`);
+  await page.getByLabel("to", { exact: true }).fill(`${to}`);
+  return saved(page, "Save film", `ball.${format}`);
+}
+
+/** Returns what a film says of itself: its size, its frames, its duration (s). */
+function probed(film) {
+  const entries = "stream=width,height,nb_read_frames:format=duration";
+  const { streams: [stream], format } = JSON.parse(execFileSync("ffprobe", ["-v", "error", "-count_frames", "-show_entries", entries, "-of", "json", "-i", "pipe:"], { input: film }));
+  return { size: [stream.width, stream.height], frames: Number(stream.nb_read_frames), duration: Number(format.duration) };
+}
+
+/** Returns the pixels of all pictures in a film or an image, three bytes for each. */
+function pixels(file) {
+  return execFileSync("ffmpeg", ["-v", "error", "-i", "pipe:", "-f", "rawvideo", "-pix_fmt", "rgb24", "-fps_mode", "passthrough", "pipe:"], { input: file, maxBuffer: 1 << 30 });
+}
+
+/** Returns the number of red pixels. */
+function countRed(bytes) {
+  let count = 0;
+  for (let i = 0; i < bytes.length; i += 3) count += Number(bytes[i] > 250 && bytes[i + 1] < 5 && bytes[i + 2] < 5);
+  return count;
+}
+
+/** Returns the mean difference of two pictures of equal size. */
+function apart(a, b) {
+  let sum = 0;
+  for (let i = 0; i < a.length; i++) sum += Math.abs(a[i] - b[i]);
+  return sum / a.length;
 }
 
 /** Returns the files of a zip file by name, as its directory at the end lists them. */
@@ -431,6 +477,91 @@ await tests({
     await says(page, "solid.obj");
   },
 
+  async a_picture_has_the_chosen_size_and_its_labels(all) {
+    const page = await openMenu(all, 12);
+    const size = page.locator("#picture-size");
+    const shown = await page.locator("#film").boundingBox();
+    const letters = await page.locator("#texts span").boundingBox();
+    for (const [value, width, height] of [["shown", Math.round(shown.width), Math.round(shown.height)], ["1280 720", 1280, 720], ["1920 1080", 1920, 1080]]) {
+      await size.selectOption(value);
+      const png = await saved(page, "Save picture", "ball_12.png");
+      assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], [width, height]);
+      const all = pixels(png);
+      assert.ok(new Set(all.subarray(0, 3 * width * height)).size > 50, "the picture is not uniform");
+      // The letters are where the page has them, and as large.
+      const scale = width / shown.width;
+      const [left, top, right, bottom] = [letters.x - shown.x, letters.y - shown.y, letters.x - shown.x + letters.width, letters.y - shown.y + letters.height].map((c) => Math.round(c * scale));
+      const rows = Array.from({ length: bottom - top + 5 }, (_, y) => all.subarray(3 * ((top + y - 2) * width + left - 2), 3 * ((top + y - 2) * width + right + 2)));
+      const count = countRed(all);
+      assert.ok(count > 0.1 * (right - left) * (bottom - top), `${count} red pixels of ${right - left} × ${bottom - top}`);
+      assert.equal(rows.reduce((sum, row) => sum + countRed(row), 0), count);
+      // Nothing is black: neither margins nor what was not drawn.
+      for (const corner of [0, width - 1, width * (height - 1), width * height - 1]) assert.ok(all[3 * corner] + all[3 * corner + 1] + all[3 * corner + 2] > 100);
+    }
+    // The page goes on as before.
+    await page.getByRole("button", { name: "Close" }).click();
+    await page.evaluate(() => window.jabuka.whenDrawn());
+    const { view, frame } = await page.evaluate(() => window.jabuka);
+    const stage = await page.locator("#picture").boundingBox();
+    assert.deepEqual([view.width, view.height, frame], [stage.width, stage.height, 12]);
+  },
+
+  async a_film_has_all_of_its_frames_in_order(all) {
+    const page = await openMenu(all, 12);
+    await page.locator("#picture-size").selectOption("1280 720");
+    const picture = pixels(await saved(page, "Save picture", "ball_12.png"));
+    const whole = await savedFilm(page, { size: [640, 360], format: "webm", from: 0, to: 25 });
+    const { duration, ...film } = probed(whole);
+    assert.deepEqual(film, { size: [640, 360], frames: 26 });
+    assert.ok(Math.abs(duration - 26 / 25) < 2e-3, `${duration} s`);
+    const part = await savedFilm(page, { size: [1280, 720], format: "webm", from: 10, to: 14 });
+    assert.equal(probed(part).frames, 5);
+    const frames = pixels(part);
+    const differences = [0, 1, 2, 3, 4].map((k) => apart(frames.subarray(k * picture.length, (k + 1) * picture.length), picture));
+    assert.ok(differences[2] < 3 && [0, 1, 3, 4].every((k) => differences[k] > differences[2]), `${differences}`);
+    await page.getByRole("button", { name: "Close" }).click();
+    await page.evaluate(() => window.jabuka.whenDrawn());
+    assert.equal(await page.evaluate(() => window.jabuka.frame), 12);
+  },
+
+  async a_film_can_be_stopped_and_the_page_goes_on(all) {
+    const page = await openMenu(all, 3);
+    page.on("download", () => assert.fail("a film that was stopped is not saved"));
+    await page.getByLabel("to", { exact: true }).fill("99");
+    await page.getByRole("button", { name: "Save film" }).click();
+    await page.locator("#save-said", { hasText: "0 to 25" }).waitFor();
+    await page.getByLabel("to", { exact: true }).fill("25");
+    await page.getByRole("button", { name: "Save film" }).click();
+    await until(page, () => document.getElementById("save-progress").value > 0);
+    await page.getByRole("button", { name: "Stop" }).click();
+    await page.locator("#save-said", { hasText: "Nothing is saved" }).waitFor();
+    assert.equal(await page.evaluate(() => document.activeElement.id), "save-film");
+    await page.keyboard.press("Escape");
+    assert.equal(await page.locator("#save-dialog").isVisible(), false);
+    assert.equal(await page.evaluate(() => window.jabuka.whenDrawn().then(() => window.jabuka.frame)), 3);
+    await page.keyboard.press("ArrowRight");
+    assert.equal(await page.evaluate(() => window.jabuka.whenDrawn().then(() => window.jabuka.frame)), 4);
+  },
+
+  async without_an_encoder_the_menu_says_so({ browser, keep, address }) {
+    const page = keep(await newPage(browser));
+    await page.addInitScript(() => delete window.VideoEncoder);
+    await open(page, address);
+    await page.getByRole("button", { name: "Save" }).click();
+    assert.equal(await page.getByRole("button", { name: "Save film" }).isEnabled(), false);
+    assert.match(await page.locator("#film-note").textContent(), /no WebCodecs/);
+  },
+
+  async the_model_and_the_table_have_these_bytes({ open, scene: folder, address }) {
+    const page = await open();
+    await page.goto(`${address}#gallery=hammer`);
+    await until(page, (jabuka) => jabuka?.name === "hammer" && jabuka.settled);
+    await page.getByRole("button", { name: "Save" }).click();
+    for (const [button, name] of [["Save model", "hammer.glb"], ["Save table", "hammer.csv"]]) {
+      assert.ok((await saved(page, button, name)).equals(readFileSync(join(folder, name))), name);
+    }
+  },
+
   async the_zip_file_has_these_files({ open, scene: folder, address }) {
     const page = await open();
     await page.goto(`${address}#gallery=hammer`);
@@ -496,7 +627,8 @@ await tests({
       await page.goto(address);
       await until(page, (jabuka) => jabuka?.drawn.count > 0 && jabuka.settled && jabuka.editor);
       await page.evaluate(axe);
-      for (const deed of [null, "Examples"]) {
+      for (const deed of [null, "Examples", "Save"]) {
+        await page.keyboard.press("Escape");
         if (deed) await page.getByRole("button", { name: deed }).click();
         const { violations } = await page.evaluate("axe.run()");
         const found = violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]);

@@ -1,7 +1,7 @@
 //! The page in a real browser. The tests are in `page.mjs`.
 
 use crate::site::Site;
-use crate::support::{compile, root, scene};
+use crate::support::{compile, jabuka, root, scene, stderr};
 
 /// Declares tests of `page.mjs`, each with a server of its own.
 macro_rules! in_the_browser {
@@ -33,6 +33,10 @@ in_the_browser!(
     a_scene_that_takes_for_ever_gives_way_to_the_next,
     every_scene_of_the_shelf_opens,
     files_that_are_dropped_lie_beside_the_scene,
+    a_picture_has_the_chosen_size_and_its_labels,
+    a_film_has_all_of_its_frames_in_order,
+    a_film_can_be_stopped_and_the_page_goes_on,
+    without_an_encoder_the_menu_says_so,
     an_address_chooses_the_parts_of_the_page,
     it_works_without_a_network_after_the_first_visit,
     small_windows_show_all_of_it,
@@ -45,6 +49,18 @@ fn the_scripts_are_those_of_the_program() {
     let folder = tempfile::tempdir().unwrap();
     compile(&scene("hammer"), folder.path(), &[]);
     Site::served().shows("the_zip_file_has_these_files", folder.path().to_str().unwrap());
+}
+
+/// The model and the table are those that the program writes.
+#[test]
+fn the_model_and_the_table_are_those_of_the_program() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["hammer.glb", "hammer.csv"] {
+        let file = folder.path().join(name);
+        let output = jabuka().arg("export").arg(scene("hammer")).arg("-o").arg(file).output().unwrap();
+        assert!(output.status.success(), "{}", stderr(&output));
+    }
+    Site::served().shows("the_model_and_the_table_have_these_bytes", folder.path().to_str().unwrap());
 }
 
 /// Checks that every test in the script is listed here; otherwise it would never run.

@@ -1,8 +1,23 @@
 // Tests of rendering a frame with POV-Ray.
 
 import assert from "node:assert/strict";
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { LONG, seek, tests, until } from "./browser.mjs";
+
+/** Collects the images that the page will show. */
+async function collectImages(page) {
+  await page.evaluate(() => {
+    window.images = [];
+    const make = URL.createObjectURL;
+    URL.createObjectURL = (blob) => (window.images.push(blob), make.call(URL, blob));
+  });
+}
+
+/** Returns the bytes of the images that the page has shown. */
+async function collected(page) {
+  const images = await page.evaluate(() => Promise.all(window.images.map(async (blob) => Array.from(new Uint8Array(await blob.arrayBuffer())))));
+  return images.map((bytes) => Buffer.from(bytes));
+}
 
 await tests({
   /** Writes the images to `draft.png` and `final.png`; the Rust test compares them with those of `jabuka still`. */
@@ -16,12 +31,7 @@ await tests({
       const note = () => window.said.push([status.textContent, document.getElementById("rendered").naturalWidth]);
       new MutationObserver(note).observe(status, { childList: true });
     });
-    // Collect the images that the page will show.
-    await page.evaluate(() => {
-      window.images = [];
-      const make = URL.createObjectURL;
-      URL.createObjectURL = (blob) => (window.images.push(blob), make.call(URL, blob));
-    });
+    await collectImages(page);
     await page.locator("#render").click();
     await page.waitForFunction(() => /^frame 6, final$/.test(document.getElementById("render-status").textContent));
     const said = await page.evaluate(() => window.said);
@@ -30,10 +40,25 @@ await tests({
     assert.equal(said[1][1], 96, "the draft is there by then");
     const size = await page.locator("#rendered").evaluate((image) => [image.naturalWidth, image.naturalHeight]);
     assert.deepEqual(size, [96, 72]);
-    const images = await page.evaluate(() => Promise.all(window.images.map(async (blob) => Array.from(new Uint8Array(await blob.arrayBuffer())))));
+    const images = await collected(page);
     assert.equal(images.length, 2);
-    images.forEach((bytes, i) => writeFileSync(["draft.png", "final.png"][i], Buffer.from(bytes)));
+    images.forEach((bytes, i) => writeFileSync(["draft.png", "final.png"][i], bytes));
     assert.ok(await page.locator("#render").isEnabled());
+  },
+
+  /** Writes the image to `own.png`, and a scene with the same camera to `own.toml`. */
+  async the_viewers_own_camera_is_rendered({ open, scene }) {
+    const page = await open();
+    await until(page, (jabuka) => jabuka.settled);
+    await seek(page, 6);
+    for (const key of ["a", "a", "w", "e"]) await page.keyboard.press(key);
+    await page.locator("#copy-camera").click();
+    writeFileSync("own.toml", `${readFileSync(scene, "utf8")}\n${await page.locator("#camera-text").textContent()}`);
+    await page.locator("#camera-dialog button").click();
+    await collectImages(page);
+    await page.locator("#render").click();
+    await page.locator("#render-status", { hasText: /^frame 6, own camera, final$/ }).waitFor();
+    writeFileSync("own.png", (await collected(page)).at(-1));
   },
 
   async without_povray_the_error_is_shown({ open }) {

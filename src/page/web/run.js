@@ -4,7 +4,7 @@ import { isThere } from "./math.js";
 import { binary, json } from "./source.js";
 
 /** The largest size of the poses that are kept in memory, bytes. */
-const BUDGET = 256 << 20;
+export const BUDGET = 256 << 20;
 /** The size of the poses that are fetched together, bytes. */
 const PIECE = 2 << 20;
 /** The count of numbers in a pose: location (3) and orientation (4). */

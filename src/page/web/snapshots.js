@@ -3,6 +3,7 @@
 import { loadFonts, paintOverlay } from "./overlay.js";
 import { drawn, element, open, player, redraw, viewpoint } from "./parts.js";
 import { compose } from "./picture.js";
+import { BUDGET } from "./run.js";
 
 /** The width of the page whose texts and lines a larger picture has, in pixels. Its details then look the same in each size. */
 const USUAL_WIDTH = 1280;
@@ -19,9 +20,11 @@ export function shownSize() {
 export async function fetchFrame(frame) {
   const { run, other, view } = open;
   await run.ready(frame, view);
-  if (run.description.stage?.trails.length) {
-    for (let before = 0; before < frame; before += run.together) {
-      if (!run.poses(Math.min(before + run.together - 1, frame))) await run.fetchPoses(Math.floor(before / run.together), run.progress.recorded);
+  // Trails need the frames before, as far as there is room for them.
+  if (run.description.stage?.trails.length && 2 * frame * run.frameBytes < BUDGET) {
+    for (let first = 0; first < frame; first += run.together) {
+      const last = Math.min(first + run.together - 1, frame);
+      if (!run.poses(last)) await run.fetchPoses(first / run.together, run.progress.recorded);
     }
   }
   if (!other) return;

@@ -13,6 +13,7 @@ const MOST_TRIADS = 20;
  */
 export function layout(shown, view, space, at, triads, plots, fonts) {
   const [left, top, width, height] = view.rectangle;
+  const { seenWidth } = view;
   const texts = [];
   // The coordinates of texts go from -1 to 1 across the picture of the scene's camera.
   const place = (x, y) => [left + ((x + 1) / 2) * width, top + height / 2 - (y / 2) * width];
@@ -21,11 +22,11 @@ export function layout(shown, view, space, at, triads, plots, fonts) {
   for (const text of shown?.texts ?? []) {
     let [x, y] = place(text.x, text.y);
     if (view.own && (text.in_world || !latest.has(text))) continue;
-    if (view.own && text.beside) [x, y] = beside(text, view, space, at, width);
-    if (view.own && text.anchor) [x, y] = anchored(text, view, space, width);
+    if (view.own && text.beside) [x, y] = beside(text, view, space, at, seenWidth);
+    if (view.own && text.anchor) [x, y] = anchored(text, view, space, seenWidth);
     if (x === undefined) continue;
     const family = fonts[text.font] && `"${fonts[text.font].family}", ${USUAL_FAMILY}`;
-    texts.push(placed(text, x, y, (text.height / 2) * width, { halo: haloOf(text.color), family }));
+    texts.push(placed(text, x, y, (text.height / 2) * seenWidth, { halo: haloOf(text.color), family }));
   }
   if (triads.length <= MOST_TRIADS) texts.push(...triads.flatMap((triad) => letters(triad, view, space)));
   if (shown?.bar && !view.own) {

@@ -98,6 +98,8 @@ export class Viewpoint {
     }
     return {
       own: this.own, location, right, up, back, eye, rectangle, aspect, flat, width, height,
+      // The width of the part that is shown on the page: labels keep their size relative to the bodies.
+      seenWidth: this.own && seen ? Math.min(width, height * seen) : rectangle[2],
       tangentX: tangentX * moreX, tangentY: tangentY * moreY, filmTangents: [tangentX, tangentY],
       clip: product(projection, lookAt(eye, { right, up, back })),
       toward: flat ? back : [0, 0, 0],

@@ -48,6 +48,18 @@ fn a_frame_is_rendered_first_as_a_draft_and_then_as_the_final_image() {
     }
 }
 
+/// The image is that of a scene with the camera that the page copies.
+#[test]
+fn the_viewers_own_camera_is_rendered() {
+    let server = Scene::of(SMALL).served();
+    server.shows("rendering.mjs", "the_viewers_own_camera_is_rendered");
+    let still = ["still", "own.toml", "--time", "0.24", "--quality", "final", "-o", "still.png"];
+    let output = server.scene.jabuka(&still).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let image = |name: &str| timeless(&fs::read(server.scene.folder().join(name)).unwrap());
+    assert!(image("own.png") == image("still.png"), "the image is not that of the copied camera");
+}
+
 #[test]
 fn without_povray_the_error_is_shown() {
     let povray = ["--povray", "/nonexistent/povray"];
