@@ -2,6 +2,7 @@
 
 import "../../src/page/web/main.js";
 import { element, open } from "../../src/page/web/parts.js";
+import { save } from "../../src/page/web/saving.js";
 import { make } from "./elements.js";
 import { linkOf, linked } from "./link.js";
 import { makeShelf } from "./shelf.js";
@@ -131,7 +132,7 @@ async function copyLink() {
 async function takeScripts() {
   const { run } = open;
   if (!run?.description.settled) return say("The scripts are there as soon as the run is finished.");
-  const { save, scriptsOf } = await import("./zip.js");
+  const { scriptsOf } = await import("./zip.js");
   const [name, { views }] = [scene.name, run.description];
   scripts.disabled = true;
   try {

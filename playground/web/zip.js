@@ -37,12 +37,3 @@ export async function scriptsOf({ id, frames, views }, tell) {
   zip.end();
   return new Blob(parts, { type: "application/zip" });
 }
-
-/** Saves a file on the reader's machine. */
-export function save(blob, name) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
-}
