@@ -27,7 +27,8 @@ export class PlotData {
       changed = true;
     }
     const wanted = range && this.finer(range);
-    if (wanted && (this.part?.key !== key || !covers(this.part, this.frames(range)) || this.part.every > 2 * wanted.every || (isNew(this.part) && this.part.recorded < this.part.to))) {
+    const isOld = () => this.part?.key !== key || (isNew(this.part) && this.part.recorded < this.part.to);
+    if (wanted && (isOld() || !covers(this.part, this.frames(range)) || this.part.every >= 2 * wanted.every)) {
       this.part = { of, key, recorded, ...(await this.fetch(of, body, wanted.from, wanted.to)) };
       changed = true;
     }

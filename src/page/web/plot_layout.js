@@ -11,7 +11,7 @@ const FINE = 0.25;
 /**
  * Returns the marks of a plot, its area, the shown ranges across (`x`) and up (`y`), and functions between values and places.
  *
- * `plot` has the curves, the name and unit `across` and `up`, the shown ranges (`window`), and the `whole` range across. `equal`: lengths are the
+ * `plot` has the curves, the name (also a brief one) and the unit `across` and `up`, the shown ranges (`window`), and the `whole` range across. `equal`: lengths are the
  * same across and up. `styles`: what the lines of the first and the second run stand for. `note`: a sentence in place of curves.
  * `size` is the height of letters, and `measure` returns the width of a text.
  */
@@ -26,9 +26,10 @@ export function layout(plot, { width, height, size, measure }) {
   const isFree = ([left, top, right, bottom], gap) => left >= 0 && right <= width && top >= 0 && bottom <= height &&
     texts.every(({ box }) => right + gap <= box[0] || box[2] + gap <= left || bottom <= box[1] || box[3] <= top);
 
-  const names = width >= WIDTH_FOR_NAMES * size && curves.length && !plot.hasNoNames ? curves.filter(({ which }) => !which) : [];
-  const beside = Math.ceil(names.length ? Math.max(...names.map(({ name }) => measure(name) + 0.9 * size), measure(across.label) + 2.2 * size) : 0.9 * size);
-  const top = Math.round(1.7 * size);
+  const isWide = width >= WIDTH_FOR_NAMES * size;
+  const names = isWide && !plot.hasNoNames ? curves.filter(({ which }) => !which) : [];
+  const beside = Math.ceil(isWide ? Math.max(...names.map(({ name }) => measure(name) + 0.9 * size), measure(across.label) + 2.2 * size) : 0.9 * size);
+  const top = Math.round(1.8 * size);
   const area = { top, height: Math.max(1, Math.round(height - 1.75 * size) - top), left: 3 * size, width: 1 };
   // The width of the numbers at the left follows from the range, which may follow from the width.
   let x, y, levels;
@@ -44,7 +45,8 @@ export function layout(plot, { width, height, size, measure }) {
   const [right, bottom] = [area.left + area.width, area.top + area.height];
   const toX = (value) => area.left + ((value - x[0]) / (x[1] - x[0])) * area.width;
   const toY = (value) => bottom - ((value - y[0]) / (y[1] - y[0])) * area.height;
-  const times = timesOf(x, area.width, size, measure, across.whole);
+  const free = width - measure(across.label) - 1.5 * size - area.left;
+  const times = timesOf(x, area.width, free, size, measure);
 
   const lines = [];
   const crisp = (place) => Math.round(place - 0.5) + 0.5;
@@ -54,9 +56,10 @@ export function layout(plot, { width, height, size, measure }) {
   for (const curve of [...curves].sort((a, b) => b.which - a.which)) lines.push(...drawn(curve, plot, x, toX, toY, size));
 
   // The units come first: a number that would cover one is left out.
-  put(titled(up, levels.offset), 0, 0.65 * size, "left");
+  const titles = [up.label, up.brief ?? ""].map((label) => titled({ ...up, label }, levels.offset));
+  put(titles.find((title) => measure(title) < width) ?? "", 0, 0.65 * size, "left");
   const unit = shifted(across.label.replace(/ \(.*/, ""), times.offset) + (/ \(.*/.exec(across.label)?.[0] ?? "");
-  const below = bottom + 1.05 * size;
+  const below = bottom + 1.15 * size;
   put(unit, width - 1, below, "right");
   for (const { at, text } of levels.ticks) number(text, area.left - 0.45 * size, toY(at), "right", 1);
   for (const { at, text } of times.ticks) number(text, toX(at), below, "center", 0.6 * size);
@@ -81,7 +84,7 @@ export function layout(plot, { width, height, size, measure }) {
 export const line = (points, ink, width, more = {}) => ({ kind: "line", points, ink, width, ...more });
 
 function titled({ label, unit }, offset) {
-  return shifted(label, offset) + (unit ? ` (${unit})` : "");
+  return `${shifted(label, offset)}${unit ? ` (${unit})` : ""}`.trim();
 }
 
 /** Returns the ranges across and up. Up, a plot over time fits what is shown. */
@@ -138,13 +141,19 @@ function levelsOf([low, high], height, size, whole) {
   return found.ticks.length > 1 ? found : ticks(low, high, 2 * most, { whole });
 }
 
-/** Returns as many round values across as have room for their numbers. */
-function timesOf([from, to], width, size, measure, whole) {
+/**
+ * Returns as many round values across as have room for their numbers. The unit covers what is beyond `free`. If that leaves less than two numbers,
+ * they stand closer together.
+ */
+function timesOf([from, to], width, free, size, measure) {
+  const place = (value) => ((value - from) / (to - from)) * width;
   let found;
-  for (let most = Math.max(1, Math.floor(width / (5 * size))); most > 0; most--) {
-    found = ticks(from, to, most, { digits: 7, whole });
-    const needed = Math.max(...found.ticks.map(({ text }) => measure(text))) + 1.2 * size;
-    if ((found.step / (to - from)) * width >= needed) break;
+  for (const gap of [1.2, 0.5]) {
+    for (let most = Math.max(6, Math.floor(width / (5 * size))); most > 0; most--) {
+      found = ticks(from, to, most, { digits: 7 });
+      if (place(from + found.step) >= Math.max(...found.ticks.map(({ text }) => measure(text))) + gap * size) break;
+    }
+    if (found.ticks.filter(({ at, text }) => place(at) + measure(text) / 2 < free).length > 1) break;
   }
   return found;
 }

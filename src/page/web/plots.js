@@ -288,17 +288,23 @@ export class Plots {
 
   /** Describes the plot for its layout. */
   get plot() {
-    const { quantity, across } = this;
-    const body = this.runs[0]?.run.description.bodies[this.body]?.name;
+    const { quantity, across, isOverTime } = this;
+    const isOfBody = quantity.of === "body";
+    const body = isOfBody ? this.runs[0]?.run.description.bodies[this.body]?.name : undefined;
     const name = quantity.name.replace("Body: ", "");
-    const subject = quantity.of === "body" && body !== undefined ? `${body}: ${name}` : name;
+    const brief = across.up?.name ?? `${name}${this.isDifference ? ", difference" : ""}`;
     const curves = this.curves();
     return {
-      curves, overall: this.range ? this.curves(null) : curves, window: this.window, whole: this.isOverTime ? this.times : undefined,
-      equal: across.equal, styles: this.styles, hasNoNames: !this.isOverTime || curves.every(({ name: curve }) => curve === name.toLowerCase()),
+      curves,
+      overall: this.range ? this.curves(null) : curves,
+      window: this.window,
+      whole: isOverTime ? this.times : undefined,
+      equal: across.equal,
+      styles: this.styles,
+      hasNoNames: !isOverTime || curves.every((curve) => curve.name === name.toLowerCase()),
       across: { label: `${across.across.name} (${across.across.unit})` },
-      up: across.up ? { label: body === undefined ? across.up.name : `${body}: ${across.up.name}`, unit: across.up.unit } : { label: this.isDifference ? `${subject}, difference` : subject, unit: quantity.unit, whole: quantity.counts },
-      note: quantity.of === "body" && this.body === undefined ? "Choose a body: click it in the picture." : undefined,
+      up: { label: body === undefined ? brief : `${body}: ${brief}`, brief, unit: (across.up ?? quantity).unit, whole: quantity.counts },
+      note: isOfBody && this.body === undefined ? "Choose a body: click it in the picture." : undefined,
     };
   }
 
