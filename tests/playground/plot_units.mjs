@@ -167,6 +167,15 @@ test("texts of plots are never cut and never over each other", () => {
   }
 });
 
+test("a curve is interrupted while its body is absent", () => {
+  const xs = Float64Array.from([0, 1, 2, 3, 4, 5, 6]);
+  const curve = { name: "y", ink: "--kinetic", which: 0, times: xs, xs, ys: Float64Array.from([1, 2, NaN, 3, NaN, 1, 2]) };
+  const plot = { curves: [curve], whole: [0, 6], window: {}, styles: [], across: { label: "t (s)" }, up: { label: "location", unit: "m" } };
+  const { marks } = layout(plot, { width: 700, height: 300, size: 11, measure: (text) => 6 * text.length });
+  const own = marks.filter(({ kind, ink }) => kind !== "text" && ink === "--kinetic");
+  assert.deepEqual(own.map(({ kind, points }) => [kind, points?.length]), [["line", 4], ["dot", undefined], ["line", 4]]);
+});
+
 test("a drawing has escaped texts and no other marks than the plot", () => {
   const plot = { ...plotOf(random(4), [0, 1, 2]), up: { label: `<b>"&'`, unit: "m" } };
   const composed = layout(plot, { width: 700, height: 400, size: 14, measure: (text) => 8 * text.length });

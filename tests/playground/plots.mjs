@@ -358,7 +358,9 @@ await tests({
 
   async a_run_of_one_frame_and_a_body_that_comes_later_are_plotted(all) {
     const one = await opened(all, { text: BALL.replace("duration = 2", "duration = 0") });
-    assert.deepEqual((await plot(one)).curves.map(({ times }) => times), [[0], [0], [0]]);
+    const { curves: single, x, texts } = await plot(one);
+    assert.deepEqual([single.map(({ times }) => times), x], [[[0], [0], [0]], [0, 1]]);
+    assert.ok(texts.some(({ text }) => text === "0.5"), `${texts.map(({ text }) => text)}`);
     await one.mouse.click(...(await place(one, 0.5, 0.5)));
     assert.equal(await drawn(one), 0);
     const page = await opened(all, { text: `${BALL}start = 1\n` });
