@@ -4,10 +4,11 @@
 const POINTS = 4000;
 
 export class PlotData {
-  constructor(run) {
+  /** Until its own numbers are fetched, a run is plotted with those of the run before it, so that the plot does not vanish while a slider is moved. */
+  constructor(run, before) {
     this.run = run;
     /** The numbers over the whole run, and those over the part that is shown. Each knows of what, and from which frames. */
-    this.whole = undefined;
+    this.whole = before?.whole && { ...before.whole, key: undefined };
     this.part = undefined;
   }
 

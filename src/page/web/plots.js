@@ -112,10 +112,10 @@ export class Plots {
     const same = this.body === body && runs.length === this.runs.length && runs.every((run, i) => run === this.runs[i].run);
     this.body = body;
     if (!same) {
-      const name = this.runs[0]?.run.description.name;
-      this.runs = runs.map((run) => this.runs.find((each) => each.run === run) ?? new PlotData(run));
+      const isSameScene = this.runs[0]?.run.description.name === runs[0].description.name;
+      this.runs = runs.map((run, k) => this.runs.find((each) => each.run === run) ?? new PlotData(run, isSameScene ? this.runs[k] : undefined));
       const [first, last] = this.times;
-      if (name !== runs[0].description.name || this.window.x?.[0] < first || this.window.x?.[1] > last) this.window = {};
+      if (!isSameScene || this.window.x?.[0] < first || this.window.x?.[1] > last) this.window = {};
       this.changed();
     }
     this.load();
@@ -369,7 +369,8 @@ export class Plots {
     showDrift(this.drift, this.runs);
     this.difference.parentElement.hidden = this.runs.length < 2 || !this.isOverTime;
     const what = this.isOverTime ? `${this.quantity.name} over time` : `${this.quantity.name}, ${this.across.name}`;
-    this.canvas.setAttribute("aria-label", `Plot: ${what}. Arrow keys move the time; plus, minus and 0 zoom; Enter tells the values.`);
+    const label = `Plot: ${what}. Arrow keys move the time; plus, minus and 0 zoom; Enter tells the values.`;
+    if (this.canvas.getAttribute("aria-label") !== label) this.canvas.setAttribute("aria-label", label);
   }
 
   /** Says the present values, for screen readers. */
