@@ -176,6 +176,18 @@ test("a curve is interrupted while its body is absent", () => {
   assert.deepEqual(own.map(({ kind, points }) => [kind, points?.length]), [["line", 4], ["dot", undefined], ["line", 4]]);
 });
 
+test("a run that breaks down is plotted as far as it has numbers", () => {
+  for (const values of [[1, 1e200, 1e305, Infinity], [0, 5e-324, -5e-324, 0], [NaN, NaN, NaN, NaN], [-Infinity, 1, 2, Infinity]]) {
+    const xs = Float64Array.from([0, 1, 2, 3]);
+    const curve = { name: "y", ink: "--kinetic", which: 0, times: xs, xs, ys: Float64Array.from(values) };
+    const plot = { curves: [curve], whole: [0, 3], window: {}, styles: [], across: { label: "t (s)" }, up: { label: "energy", unit: "J" } };
+    const { y, marks } = layout(plot, { width: 700, height: 300, size: 11, measure: (text) => 6 * text.length });
+    assert.ok(y[1] > y[0] && y.every(Number.isFinite), `${values}: ${y}`);
+    const places = marks.flatMap(({ points, x = 0, y = 0 }) => points ?? [x, y]);
+    assert.ok(places.every(Number.isFinite), `${values}`);
+  }
+});
+
 test("a drawing has escaped texts and no other marks than the plot", () => {
   const plot = { ...plotOf(random(4), [0, 1, 2]), up: { label: `<b>"&'`, unit: "m" } };
   const composed = layout(plot, { width: 700, height: 400, size: 14, measure: (text) => 8 * text.length });

@@ -5,6 +5,8 @@ import { firstFrom } from "./plot_quantities.js";
 
 /** The smallest width of a plot with names at its curves, in sizes of its letters. */
 const WIDTH_FOR_NAMES = 32;
+/** Values beyond the largest one have no place. Ranges shorter than the smallest one cannot be divided. */
+const [LARGEST, SMALLEST] = [1e300, 1e-300];
 /** Points that are nearer to the one before are left out, pixels. */
 const FINE = 0.25;
 
@@ -105,8 +107,8 @@ function extent(all) {
   let [low, high] = [Infinity, -Infinity];
   for (const values of all) {
     for (const value of values) {
-      if (value < low) low = value;
-      if (value > high) high = value;
+      if (value < low && value >= -LARGEST) low = value;
+      if (value > high && value <= LARGEST) high = value;
     }
   }
   return [low, high];
@@ -127,8 +129,8 @@ function extentUp({ curves, whole }, [from, to]) {
 function padded([low, high]) {
   if (!(high >= low)) return [0, 1];
   const size = Math.max(Math.abs(low), Math.abs(high));
-  if (high - low > 1e-13 * size) return [low - 0.06 * (high - low), high + 0.06 * (high - low)];
-  const room = 0.1 * size || 1;
+  if (high - low > Math.max(SMALLEST, 1e-13 * size)) return [low - 0.06 * (high - low), high + 0.06 * (high - low)];
+  const room = size > SMALLEST ? 0.1 * size : 1;
   return [(low + high) / 2 - room, (low + high) / 2 + room];
 }
 
@@ -171,7 +173,7 @@ function drawn({ which, ink, xs, ys }, { whole }, x, toX, toY, size) {
   };
   for (let k = first; k < end; k++) {
     const [a, b] = [toX(xs[k]), toY(ys[k])];
-    if (Number.isNaN(a) || Number.isNaN(b)) {
+    if (!Number.isFinite(a) || !Number.isFinite(b)) {
       finish();
       continue;
     }

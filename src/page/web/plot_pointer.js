@@ -1,7 +1,7 @@
 // Pointers over a plot: a drag goes through time, the wheel and two fingers zoom, and a drag with Shift or the right button shifts the plot.
 
-/** How much a turn of the wheel by one pixel zooms, and the farthest turn of one event. */
-const [WHEEL, FARTHEST] = [0.0018, 120];
+/** How much a turn of the wheel by one pixel zooms, how much two fingers on a touchpad do, and the farthest turn of one event. */
+const [WHEEL, TOUCHPAD, FARTHEST] = [0.0018, 0.01, 120];
 
 /**
  * Calls the functions of `plot`: `go(place)`, `zoom(place, factor)`, `shift(x, y)`, `showAll()`, and `point(place)`, without a place when the pointer
@@ -45,10 +45,10 @@ export function watch(canvas, plot) {
   canvas.oncontextmenu = (event) => event.preventDefault();
   canvas.ondblclick = (event) => event.shiftKey || plot.showAll();
   canvas.onwheel = (event) => {
-    if (event.ctrlKey && !event.deltaY) return;
     event.preventDefault();
     const turn = (delta) => Math.max(-FARTHEST, Math.min(FARTHEST, delta));
     if (Math.abs(event.deltaX) > Math.abs(event.deltaY)) plot.shift(-turn(event.deltaX), 0);
-    else plot.zoom(placeOf(event), Math.exp(WHEEL * turn(event.deltaY)));
+    // Browsers report two fingers on a touchpad as a wheel with the Control key.
+    else plot.zoom(placeOf(event), Math.exp((event.ctrlKey ? TOUCHPAD : WHEEL) * turn(event.deltaY)));
   };
 }
