@@ -4,6 +4,9 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+#[macro_use]
+mod site;
+
 mod digests;
 mod page;
-mod site;
+mod plots;

@@ -3,20 +3,7 @@
 use crate::site::Site;
 use crate::support::{compile, jabuka, root, scene, stderr};
 
-/// Declares tests of `page.mjs`, each with a server of its own.
-macro_rules! in_the_browser {
-    ($($(#[$about:meta])* $test:ident),+ $(,)?) => {
-        $(
-            $(#[$about])*
-            #[test]
-            fn $test() {
-                Site::served().shows(stringify!($test), "");
-            }
-        )+
-    };
-}
-
-in_the_browser!(
+in_the_browser! { "page.mjs":
     the_first_visit_shows_a_scene,
     an_edit_is_run_and_an_older_run_is_never_drawn_again,
     an_error_is_marked_at_its_place_and_mended_by_a_click,
@@ -41,14 +28,14 @@ in_the_browser!(
     it_works_without_a_network_after_the_first_visit,
     small_windows_show_all_of_it,
     accessibility_rules_hold,
-);
+}
 
 /// The zip file has the scripts that the program writes.
 #[test]
 fn the_scripts_are_those_of_the_program() {
     let folder = tempfile::tempdir().unwrap();
     compile(&scene("hammer"), folder.path(), &[]);
-    Site::served().shows("the_zip_file_has_these_files", folder.path().to_str().unwrap());
+    Site::served().shows("page.mjs", "the_zip_file_has_these_files", folder.path().to_str().unwrap());
 }
 
 /// The model and the table are those that the program writes.
@@ -60,17 +47,23 @@ fn the_model_and_the_table_are_those_of_the_program() {
         let output = jabuka().arg("export").arg(scene("hammer")).arg("-o").arg(file).output().unwrap();
         assert!(output.status.success(), "{}", stderr(&output));
     }
-    Site::served().shows("the_model_and_the_table_have_these_bytes", folder.path().to_str().unwrap());
+    Site::served().shows(
+        "page.mjs",
+        "the_model_and_the_table_have_these_bytes",
+        folder.path().to_str().unwrap(),
+    );
 }
 
-/// Checks that every test in the script is listed here; otherwise it would never run.
+/// Checks that every test in a script is listed in the file beside it; otherwise it would never run.
 #[test]
-fn every_test_in_the_script_is_run() {
+fn every_test_in_a_script_is_run() {
     let read = |name: &str| std::fs::read_to_string(root().join("tests/playground").join(name)).unwrap();
-    let (script, tests) = (read("page.mjs"), read("page.rs"));
-    let names = script.split("\n  async ").skip(1).map(|rest| rest.split('(').next().unwrap());
-    let unknown: Vec<&str> = names.filter(|name| !tests.contains(name)).collect();
-    assert_eq!(unknown, [""; 0]);
+    for name in ["page", "plots"] {
+        let (script, tests) = (read(&format!("{name}.mjs")), read(&format!("{name}.rs")));
+        let names = script.split("\n  async ").skip(1).map(|rest| rest.split('(').next().unwrap());
+        let unknown: Vec<&str> = names.filter(|name| !tests.contains(name)).collect();
+        assert_eq!(unknown, [""; 0]);
+    }
 }
 
 /// The libraries of the page are committed as bundles, which their build makes from the versions that it names.

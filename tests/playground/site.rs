@@ -6,6 +6,19 @@ use std::process::{Child, Command, Stdio};
 
 use crate::support::root;
 
+/// Declares tests of a script, each with a server of its own.
+macro_rules! in_the_browser {
+    ($script:literal: $($(#[$about:meta])* $test:ident),+ $(,)?) => {
+        $(
+            $(#[$about])*
+            #[test]
+            fn $test() {
+                $crate::site::Site::served().shows($script, stringify!($test), "");
+            }
+        )+
+    };
+}
+
 /// Returns the path of the page's folder.
 ///
 /// # Panics
@@ -38,10 +51,10 @@ impl Site {
         Site { child, address: address.trim().to_owned() }
     }
 
-    /// Runs a test of `page.mjs` in a browser, and asserts that it succeeds. `argument` is for the test.
-    pub(crate) fn shows(&self, test: &str, argument: &str) {
+    /// Runs a test of a script in a browser, and asserts that it succeeds. `argument` is for the test.
+    pub(crate) fn shows(&self, script: &str, test: &str, argument: &str) {
         let output = Command::new(root().join("tests/preview/browser"))
-            .args(["../playground/page.mjs", test, &self.address, argument])
+            .args([format!("../playground/{script}").as_str(), test, &self.address, argument])
             .output()
             .unwrap();
         assert!(output.status.success(), "{test}: {}", String::from_utf8_lossy(&output.stderr));

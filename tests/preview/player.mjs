@@ -22,7 +22,7 @@ await tests({
     await until(page, (jabuka) => jabuka.playing && jabuka.frame > 3);
     await space(page);
     await atStart(page, "playing");
-    for (const place of ["#forward", "#play", "#reset", "#camera", "#help", "#speed", "#integrator", "#plotted", "#time", "#step", "#other-step", "#loop", "#picture"]) {
+    for (const place of ["#forward", "#play", "#reset", "#camera", "#help", "#speed", "#integrator", "#plotted", "#time", "#step", "#other-step", "#loop", "#plot", "#plot-csv", "#picture"]) {
       await seek(page, 77);
       await page.locator(place).focus();
       await space(page);
@@ -106,8 +106,9 @@ await tests({
     const page = await open();
     await until(page, (jabuka) => jabuka.settled);
     for (const part of [0.5, 0.9]) {
-      const { x, y, width, height } = await page.locator("#plot").boundingBox();
-      await page.mouse.click(x + part * width, y + height / 2);
+      const { x, y } = await page.locator("#plot").boundingBox();
+      const { left, top, width, height } = await page.evaluate(() => window.jabuka.plot.area);
+      await page.mouse.click(x + left + part * width, y + top + height / 2);
       const frame = await drawn(page);
       assert.ok(Math.abs(frame - 500 * part) <= 500 / width + 1, `${frame} at ${part}`);
       assert.equal(await page.evaluate(() => window.jabuka.playing), false);

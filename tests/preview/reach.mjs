@@ -5,7 +5,7 @@ import { seek, tests, until } from "./browser.mjs";
 import { box, place } from "./picture.mjs";
 
 const PHONE = { size: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
-const CONTROLS = ["camera", "render", "help", "body-name", "integrator", "step", "other-integrator", "other-step", "reset", "back", "play", "forward", "time", "speed", "loop", "plotted"];
+const CONTROLS = ["camera", "render", "help", "body-name", "integrator", "step", "other-integrator", "other-step", "reset", "back", "play", "forward", "time", "speed", "loop", "plotted", "plot-csv", "plot-svg", "plot-enlarge"];
 
 await tests({
   async all_controls_are_in_reach_on_a_phone({ open }) {
@@ -46,7 +46,7 @@ await tests({
       if (id) assert.ok(outline, `the focus on ${id} is not to be seen`);
       reached.push(id);
     }
-    const missing = ["picture", ...CONTROLS].filter((id) => !reached.includes(id));
+    const missing = ["picture", ...CONTROLS, "plot"].filter((id) => !reached.includes(id));
     assert.deepEqual(missing, [], `of ${reached}`);
   },
 

@@ -1,6 +1,6 @@
 // `window.jabuka`: an interface for programs, such as tests, that control the page or read what it shows.
 
-import { drawn, element, open, panel, player, redraw } from "./parts.js";
+import { drawn, element, open, panel, player, plots, redraw } from "./parts.js";
 import { diagnostics } from "./text.js";
 
 window.jabuka = {
@@ -18,6 +18,12 @@ window.jabuka = {
   get comparison() { return element("comparison").textContent; },
   get selected() { return open.run?.description.bodies[panel.body]?.name ?? null; },
   get drawn() { return { count: drawn.count, run: drawn.run, frame: drawn.frame }; },
+  /** The plot: the area of its curves in pixels of its canvas, the shown ranges across and up, its texts with their boxes, and its curves. */
+  get plot() {
+    const { area, x, y, size, marks, curves } = plots.composed ?? { marks: [], curves: [] };
+    const texts = marks.filter(({ kind }) => kind === "text").map(({ text, box }) => ({ text, box }));
+    return { area, x, y, size, texts, curves: curves.map(({ name, which, times, xs, ys }) => ({ name, which, times: Array.from(times), xs: Array.from(xs), ys: Array.from(ys) })) };
+  },
   /** The transform from world coordinates (m) to the picture: (point - center) / size, and then the matrix `clip`. */
   get view() {
     const { clip, width, height } = drawn.view ?? { clip: [] };

@@ -17,7 +17,10 @@ export const drawn = { count: 0, run: null, frame: -1, view: null, dirty: true, 
 export const player = new Player();
 export const viewpoint = new Viewpoint();
 export const panel = new Panel({ name: element("body-name"), names: element("body-names"), values: element("body-values"), shows: element("body-shows") });
-export const plots = new Plots({ canvas: element("plot"), choice: element("plotted"), legend: element("legend"), drift: element("drift") });
+export const plots = new Plots({
+  frame: element("plots"), canvas: element("plot"), choice: element("plotted"), against: element("against"), difference: element("difference"),
+  legend: element("legend"), drift: element("drift"), csv: element("plot-csv"), svg: element("plot-svg"), enlarge: element("plot-enlarge"), said: element("plot-said"),
+});
 export const texts = new Texts(element("texts"));
 
 /** Marks the picture as outdated, so that it is drawn again. */

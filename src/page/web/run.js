@@ -286,10 +286,9 @@ export class Run {
     }
   }
 
-  /** Fetches energies and momenta of the run, with at most `points` frames. Each frame has 13 numbers. */
-  async balance(points) {
-    const every = Math.max(1, Math.ceil(this.frames / points));
-    return new Float64Array(await binary(`/api/runs/${this.id}/balance`, { every }));
+  /** Fetches energies and momenta over some frames. Each frame has 13 numbers. */
+  async balance(from, to, every = 1) {
+    return new Float64Array(await binary(`/api/runs/${this.id}/balance`, { from, to, every }));
   }
 
   /** Fetches the motion of a body over some frames. Each frame has 15 numbers. */
