@@ -1,5 +1,6 @@
 // The plots below the picture: energies, momenta and the motion of a body over time, and its paths. A click goes to that time.
 
+import { download } from "./download.js";
 import { short } from "./math.js";
 import { PlotData } from "./plot_data.js";
 import { drawMarks, fontOf, inkOf } from "./plot_drawing.js";
@@ -8,7 +9,6 @@ import { showDrift, showValues } from "./plot_legend.js";
 import { overlay } from "./plot_overlay.js";
 import { watch } from "./plot_pointer.js";
 import { QUANTITIES, against, curvesOf, nearest } from "./plot_quantities.js";
-import { download } from "./download.js";
 import { drawingFile, tableFile } from "./plot_saving.js";
 import { followed, moved, zoomed } from "./plot_window.js";
 
