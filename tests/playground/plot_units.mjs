@@ -138,7 +138,7 @@ function plotOf(next, times) {
   const range = isOverTime && next() < 0.5 ? [times[0] + 0.3 * next() * (whole[1] - whole[0]), times.at(-1)] : undefined;
   return {
     curves, whole, window: { x: range }, equal: !isOverTime, styles: next() < 0.5 ? ["velocity-verlet", "explicit-euler"] : [],
-    across: { label: "t (s)" }, up: { label: "ball[0]: angular velocity", brief: "angular velocity", unit: "rad/s" },
+    across: { label: "t", unit: "s" }, up: { label: "ball[0]: angular velocity", brief: "angular velocity", unit: "rad/s" },
   };
 }
 
@@ -170,7 +170,7 @@ test("texts of plots are never cut and never over each other", () => {
 test("a curve is interrupted while its body is absent", () => {
   const xs = Float64Array.from([0, 1, 2, 3, 4, 5, 6]);
   const curve = { name: "y", ink: "--kinetic", which: 0, times: xs, xs, ys: Float64Array.from([1, 2, NaN, 3, NaN, 1, 2]) };
-  const plot = { curves: [curve], whole: [0, 6], window: {}, styles: [], across: { label: "t (s)" }, up: { label: "location", unit: "m" } };
+  const plot = { curves: [curve], whole: [0, 6], window: {}, styles: [], across: { label: "t", unit: "s" }, up: { label: "location", unit: "m" } };
   const { marks } = layout(plot, { width: 700, height: 300, size: 11, measure: (text) => 6 * text.length });
   const own = marks.filter(({ kind, ink }) => kind !== "text" && ink === "--kinetic");
   assert.deepEqual(own.map(({ kind, points }) => [kind, points?.length]), [["line", 4], ["dot", undefined], ["line", 4]]);
@@ -180,7 +180,7 @@ test("a run that breaks down is plotted as far as it has numbers", () => {
   for (const values of [[1, 1e200, 1e305, Infinity], [0, 5e-324, -5e-324, 0], [NaN, NaN, NaN, NaN], [-Infinity, 1, 2, Infinity]]) {
     const xs = Float64Array.from([0, 1, 2, 3]);
     const curve = { name: "y", ink: "--kinetic", which: 0, times: xs, xs, ys: Float64Array.from(values) };
-    const plot = { curves: [curve], whole: [0, 3], window: {}, styles: [], across: { label: "t (s)" }, up: { label: "energy", unit: "J" } };
+    const plot = { curves: [curve], whole: [0, 3], window: {}, styles: [], across: { label: "t", unit: "s" }, up: { label: "energy", unit: "J" } };
     const { y, marks } = layout(plot, { width: 700, height: 300, size: 11, measure: (text) => 6 * text.length });
     assert.ok(y[1] > y[0] && y.every(Number.isFinite), `${values}: ${y}`);
     const places = marks.flatMap(({ points, x = 0, y = 0 }) => points ?? [x, y]);

@@ -13,78 +13,109 @@ const FINE = 0.25;
 /**
  * Returns the marks of a plot, its area, the shown ranges across (`x`) and up (`y`), and functions between values and places.
  *
- * `plot` has the curves, the name (also a brief one) and the unit `across` and `up`, the shown ranges (`window`), and the `whole` range across. `equal`: lengths are the
- * same across and up. `styles`: what the lines of the first and the second run stand for. `note`: a sentence in place of curves.
- * `size` is the height of letters, and `measure` returns the width of a text.
+ * `plot` has the curves, the label and the unit of each axis (`across` and `up`), a brief label `up`, the shown ranges (`window`), and the `whole`
+ * range of time, which a path has not. `equal`: lengths are the same across and up. `styles`: the names of the runs that are compared.
+ * `hasNoNames`: the curves need no names. `note`: a sentence in place of curves. On the `paper`, `size` is the height of letters, and `measure`
+ * returns the width of a text.
  */
-export function layout(plot, { width, height, size, measure }) {
-  const { curves, across, up } = plot;
-  const texts = [];
-  const put = (text, x, y, align, more = {}) => {
-    const wide = measure(text);
-    const left = x - { left: 0, center: wide / 2, right: wide }[align];
-    texts.push({ kind: "text", text, x, y, align, ink: "--quiet", ...more, box: [left, y - 0.55 * size, left + wide, y + 0.55 * size] });
-  };
-  const isFree = ([left, top, right, bottom], gap) => left >= 0 && right <= width && top >= 0 && bottom <= height &&
-    texts.every(({ box }) => right + gap <= box[0] || box[2] + gap <= left || bottom <= box[1] || box[3] <= top);
+export function layout(plot, paper) {
+  const frame = frameOf(plot, paper);
+  const behind = [...plot.curves].sort((a, b) => b.which - a.which);
+  const curves = behind.flatMap((curve) => drawn(curve, plot, frame, paper.size));
+  return { ...frame, ...paper, marks: [...grid(frame), ...curves, ...textsOf(plot, frame, paper)] };
+}
 
+/** Returns the area of the curves, what it shows, and the numbers at its axes. */
+function frameOf(plot, { width, height, size, measure }) {
+  const { curves, across, up } = plot;
   const isWide = width >= WIDTH_FOR_NAMES * size;
   const names = isWide && !plot.hasNoNames ? curves.filter(({ which }) => !which) : [];
-  const beside = Math.ceil(isWide ? Math.max(...names.map(({ name }) => measure(name) + 0.9 * size), measure(across.label) + 2.2 * size) : 0.9 * size);
+  const unit = measure(titled(across, 0));
+  const beside = Math.ceil(isWide ? Math.max(...names.map(({ name }) => measure(name) + 0.9 * size), unit + 2.2 * size) : 0.9 * size);
   const top = Math.round(1.8 * size);
-  const area = { top, height: Math.max(1, Math.round(height - 1.75 * size) - top), left: 3 * size, width: 1 };
+  const area = { left: 3 * size, top, width: 1, height: Math.max(1, Math.round(height - 1.75 * size) - top) };
+  const fit = () => (area.width = Math.max(1, width - area.left - beside));
   // The width of the numbers at the left follows from the range, which may follow from the width.
   let x, y, levels;
   for (let pass = 0; pass < 3; pass++) {
-    area.width = Math.max(1, width - area.left - beside);
+    fit();
     [x, y] = ranges(plot, area);
     levels = levelsOf(y, area.height, size, up.whole);
     const left = Math.ceil(Math.max(size, ...levels.ticks.map(({ text }) => measure(text))) + 0.8 * size);
     if (left <= area.left && pass) break;
     area.left = left;
   }
-  area.width = Math.max(1, width - area.left - beside);
-  const [right, bottom] = [area.left + area.width, area.top + area.height];
-  const toX = (value) => area.left + ((value - x[0]) / (x[1] - x[0])) * area.width;
-  const toY = (value) => bottom - ((value - y[0]) / (y[1] - y[0])) * area.height;
-  const free = width - measure(across.label) - 1.5 * size - area.left;
-  const times = timesOf(x, area.width, free, size, measure);
-
-  const lines = [];
-  const crisp = (place) => Math.round(place - 0.5) + 0.5;
-  for (const { at } of times.ticks) lines.push(line([crisp(toX(at)), area.top, crisp(toX(at)), bottom], "--line", 1, { faint: true }));
-  for (const { at } of levels.ticks) lines.push(line([area.left, crisp(toY(at)), right, crisp(toY(at))], "--line", 1, { faint: at !== 0 }));
-  lines.push(line([crisp(area.left), area.top, crisp(area.left), crisp(bottom), right, crisp(bottom)], "--axis", 1));
-  for (const curve of [...curves].sort((a, b) => b.which - a.which)) lines.push(...drawn(curve, plot, x, toX, toY, size));
-
-  // The units come first: a number that would cover one is left out.
-  const titles = [up.label, up.brief ?? ""].map((label) => titled({ ...up, label }, levels.offset));
-  put(titles.find((title) => measure(title) < width) ?? "", 0, 0.65 * size, "left");
-  const unit = shifted(across.label.replace(/ \(.*/, ""), times.offset) + (/ \(.*/.exec(across.label)?.[0] ?? "");
-  const below = bottom + 1.15 * size;
-  put(unit, width - 1, below, "right");
-  for (const { at, text } of levels.ticks) number(text, area.left - 0.45 * size, toY(at), "right", 1);
-  for (const { at, text } of times.ticks) number(text, toX(at), below, "center", 0.6 * size);
-  function number(text, x, y, align, gap) {
-    put(text, x, y, align);
-    const mark = texts.pop();
-    if (isFree(mark.box, gap)) texts.push(mark);
-  }
-  if (plot.styles.length > 1) key(plot.styles, right, size, measure, put, lines, isFree);
-  const ends = names.map((curve) => toY(lastIn(curve, x) ?? y[0]));
-  const places = spread(ends, 1.15 * size, area.top + 0.3 * size, bottom - 0.3 * size);
-  names.forEach(({ name, ink }, k) => put(name, right + 0.5 * size, places[k], "left", { ink }));
-  if (plot.note) put(plot.note, area.left + area.width / 2, area.top + area.height / 2, "center");
+  fit();
+  const bottom = area.top + area.height;
   return {
-    area, x, y, toX, toY, width, height, size, marks: [...lines, ...texts],
+    area, x, y, names, levels,
+    times: timesOf(x, area.width, width - unit - 1.5 * size - area.left, size, measure),
+    toX: (value) => area.left + ((value - x[0]) / (x[1] - x[0])) * area.width,
+    toY: (value) => bottom - ((value - y[0]) / (y[1] - y[0])) * area.height,
     atX: (place) => x[0] + ((place - area.left) / area.width) * (x[1] - x[0]),
     atY: (place) => y[0] + ((bottom - place) / area.height) * (y[1] - y[0]),
   };
 }
 
+/** Returns the lines at round numbers, and the axes. */
+function grid({ area, times, levels, toX, toY }) {
+  const [right, bottom] = [area.left + area.width, area.top + area.height];
+  const crisp = (place) => Math.round(place - 0.5) + 0.5;
+  return [
+    ...times.ticks.map(({ at }) => line([crisp(toX(at)), area.top, crisp(toX(at)), bottom], "--line", 1, { faint: true })),
+    ...levels.ticks.map(({ at }) => line([area.left, crisp(toY(at)), right, crisp(toY(at))], "--line", 1, { faint: at !== 0 })),
+    line([crisp(area.left), area.top, crisp(area.left), crisp(bottom), right, crisp(bottom)], "--axis", 1),
+  ];
+}
+
+/** Returns all texts, and the lines that explain the lines of compared runs. */
+function textsOf(plot, { area, x, y, times, levels, names, toX, toY }, { width, height, size, measure }) {
+  const marks = [];
+  const boxes = [];
+  const put = (text, x, y, align, ink = "--quiet") => {
+    const box = boxOf(text, x, y, align);
+    boxes.push(box);
+    marks.push({ kind: "text", text, x, y, align, ink, box });
+  };
+  const boxOf = (text, x, y, align) => {
+    const left = x - { left: 0, center: 0.5, right: 1 }[align] * measure(text);
+    return [left, y - 0.55 * size, left + measure(text), y + 0.55 * size];
+  };
+  const isFree = ([left, top, right, bottom], gap) => left >= 0 && right <= width && top >= 0 && bottom <= height &&
+    boxes.every((box) => right + gap <= box[0] || box[2] + gap <= left || bottom <= box[1] || box[3] <= top);
+  /** Puts a number, unless it would cover another text. */
+  const number = (text, x, y, align, gap) => isFree(boxOf(text, x, y, align), gap) && put(text, x, y, align);
+
+  const [right, bottom] = [area.left + area.width, area.top + area.height];
+  const [above, below] = [0.65 * size, bottom + 1.15 * size];
+  const titles = [plot.up.label, plot.up.brief ?? ""].map((label) => titled({ ...plot.up, label }, levels.offset));
+  put(titles.find((title) => measure(title) < width) ?? "", 0, above, "left");
+  put(titled(plot.across, times.offset), width - 1, below, "right");
+  for (const { at, text } of levels.ticks) number(text, area.left - 0.45 * size, toY(at), "right", 1);
+  for (const { at, text } of times.ticks) number(text, toX(at), below, "center", 0.6 * size);
+  const ends = names.map((curve) => toY(lastIn(curve, x) ?? y[0]));
+  const places = spread(ends, 1.15 * size, area.top + 0.3 * size, bottom - 0.3 * size);
+  names.forEach(({ name, ink }, k) => put(name, right + 0.5 * size, places[k], "left", ink));
+  if (plot.note) put(plot.note, area.left + area.width / 2, area.top + area.height / 2, "center");
+
+  const widths = plot.styles.map((style) => measure(style) + 3 * size);
+  let place = right - widths.reduce((sum, wide) => sum + wide, 0) + size;
+  if (plot.styles.length < 2 || !isFree([place - 2.2 * size, 0, right, size], size)) return marks;
+  plot.styles.forEach((style, which) => {
+    marks.push(line([place - 1.9 * size, above, place - 0.4 * size, above], "--ink", ...styleOf(which, size)));
+    put(style, place, above, "left");
+    place += widths[which];
+  });
+  return marks;
+}
+
+/** Returns the width and the dashes of the lines of a run. */
+const styleOf = (which, size) => (which ? [0.1 * size, { dash: [0.45 * size, 0.35 * size] }] : [0.14 * size, {}]);
+
 /** Returns a line through points, which are listed as x, y, x, y, … */
 export const line = (points, ink, width, more = {}) => ({ kind: "line", points, ink, width, ...more });
 
+/** Returns the label of an axis, with its unit. */
 function titled({ label, unit }, offset) {
   return `${shifted(label, offset)}${unit ? ` (${unit})` : ""}`.trim();
 }
@@ -161,13 +192,13 @@ function timesOf([from, to], width, free, size, measure) {
 }
 
 /** Returns the lines of a curve. An absent body has no curve, so the curve is interrupted. A point without neighbors is a dot. */
-function drawn({ which, ink, xs, ys }, { whole }, x, toX, toY, size) {
+function drawn({ which, ink, xs, ys }, { whole }, { x, toX, toY }, size) {
   const [first, end] = whole ? [Math.max(0, firstFrom(xs, x[0]) - 1), Math.min(xs.length, firstFrom(xs, x[1]) + 1)] : [0, xs.length];
-  const style = { clip: true, dash: which ? [0.45 * size, 0.35 * size] : undefined };
+  const [wide, dashes] = styleOf(which, size);
   const marks = [];
   let points = [];
   const finish = () => {
-    if (points.length > 2) marks.push(line(points, ink, (which ? 0.1 : 0.14) * size, style));
+    if (points.length > 2) marks.push(line(points, ink, wide, { ...dashes, clip: true }));
     else if (points.length) marks.push({ kind: "dot", x: points[0], y: points[1], r: 0.2 * size, ink });
     points = [];
   };
@@ -188,17 +219,4 @@ function drawn({ which, ink, xs, ys }, { whole }, x, toX, toY, size) {
 function lastIn({ xs, ys }, [, to]) {
   for (let k = Math.min(xs.length, firstFrom(xs, to) + 1) - 1; k >= 0; k--) if (!Number.isNaN(ys[k])) return ys[k];
   return undefined;
-}
-
-/** Says above the plot which run has which lines. */
-function key(styles, right, size, measure, put, lines, isFree) {
-  const y = 0.65 * size;
-  const widths = styles.map((style) => measure(style) + 3 * size);
-  let x = right - widths.reduce((sum, wide) => sum + wide, 0) + size;
-  if (!isFree([x - 2.2 * size, 0, right, size], size)) return;
-  styles.forEach((style, which) => {
-    lines.push(line([x - 1.9 * size, y, x - 0.4 * size, y], "--ink", (which ? 0.1 : 0.14) * size, { dash: which ? [0.45 * size, 0.35 * size] : undefined }));
-    put(style, x, y, "left");
-    x += widths[which];
-  });
 }

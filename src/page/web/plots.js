@@ -302,7 +302,7 @@ export class Plots {
       equal: across.equal,
       styles: this.styles,
       hasNoNames: !isOverTime || curves.every((curve) => curve.name === name.toLowerCase()),
-      across: { label: `${across.across.name} (${across.across.unit})` },
+      across: { label: across.across.name, unit: across.across.unit },
       up: { label: body === undefined ? brief : `${body}: ${brief}`, brief, unit: (across.up ?? quantity).unit, whole: quantity.counts },
       note: isOfBody && this.body === undefined ? "Choose a body: click it in the picture." : undefined,
     };
