@@ -161,6 +161,28 @@ await tests({
     assert.equal(await page.evaluate(() => window.jabuka.frames), 26);
   },
 
+  async warnings_are_folded_and_errors_are_not(all) {
+    const page = await openBall(all);
+    await write(page, BALL.replace("duration = 1", "duration = 2\ngravity = [0, -9.81, 0]"));
+    const fold = page.locator("#warnings");
+    await fold.filter({ hasText: /^Warning: `ball` falls below height 0/ }).waitFor();
+    const problem = page.locator("#problem");
+    assert.equal(await problem.isVisible(), false);
+    await fold.focus();
+    await page.keyboard.press("Enter");
+    assert.match(await problem.textContent(), /^warning\[crossing\]/);
+    assert.ok(await problem.isVisible());
+    await fold.click();
+    assert.equal(await problem.isVisible(), false);
+    await write(page, BALL.replace("0.5", "-1"));
+    await until(page, (jabuka) => jabuka.problem !== null);
+    assert.ok(await problem.isVisible());
+    assert.equal(await fold.isVisible(), false);
+    await write(page, BALL);
+    await until(page, (jabuka) => jabuka.problem === null);
+    assert.equal(await problem.isVisible() || await fold.isVisible(), false);
+  },
+
   async twenty_faulty_scenes_are_mended_by_a_click_each(all) {
     const page = await openBall(all);
     await until(page, (jabuka) => jabuka.editor);

@@ -7,6 +7,7 @@ in_the_browser! { "page.mjs":
     the_first_visit_shows_a_scene,
     an_edit_is_run_and_an_older_run_is_never_drawn_again,
     an_error_is_marked_at_its_place_and_mended_by_a_click,
+    warnings_are_folded_and_errors_are_not,
     twenty_faulty_scenes_are_mended_by_a_click_each,
     keys_are_completed_and_explained,
     keys_typed_in_the_editor_do_not_control_the_player,

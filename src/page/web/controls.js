@@ -5,7 +5,7 @@ import { copyCamera } from "./copied_camera.js";
 import { drawn, element, open, panel, player, plots, redraw, viewpoint } from "./parts.js";
 import { sceneCamera } from "./picture.js";
 import { renderThis } from "./render.js";
-import { refresh } from "./runs.js";
+import { foldWarnings, refresh } from "./runs.js";
 import { prepareSaving } from "./save.js";
 import { CAN_RENDER } from "./source.js";
 
@@ -168,6 +168,7 @@ export function listen() {
   element("render").onclick = renderThis;
   element("image-close").onclick = act(() => (element("image").hidden = true));
   prepareSaving();
+  element("warnings").onclick = foldWarnings;
   element("help").onclick = () => element("keys").showModal();
   for (const id of ["integrator", "step", "other-integrator", "other-step"]) {
     element(id).onchange = async () => {

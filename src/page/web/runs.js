@@ -179,6 +179,13 @@ function describe(run) {
   element("nothing").hidden = true;
 }
 
+/** Opens or folds the warnings. */
+export function foldWarnings() {
+  const fold = element("warnings");
+  fold.setAttribute("aria-expanded", String(fold.getAttribute("aria-expanded") === "false"));
+  sayProblem();
+}
+
 export function sayProblem() {
   const { state, gone } = open;
   const problem = element("problem");
@@ -187,7 +194,13 @@ export function sayProblem() {
   const mild = [state?.warnings, run?.warnings].filter(Boolean).join("");
   problem.textContent = wrong || mild;
   problem.classList.toggle("mild", !wrong);
-  problem.hidden = !(wrong || mild);
+  // Errors are always open. Warnings are folded to a line until the user wants to read them.
+  const fold = element("warnings");
+  fold.hidden = Boolean(wrong) || !mild;
+  problem.hidden = wrong ? false : !mild || fold.getAttribute("aria-expanded") === "false";
+  const heads = mild.match(/^warning.*$/gm) ?? [];
+  const [first] = heads.map((line) => line.replace(/^warning(\[[^\]]*\])?: /, ""));
+  fold.textContent = heads.length > 1 ? `${heads.length} warnings: ${first}, …` : `Warning: ${first}`;
   if (state && !state.current && wrong) {
     element("nothing").textContent = "The scene has errors. It is shown as soon as they are mended.";
     element("nothing").hidden = false;
