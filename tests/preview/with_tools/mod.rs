@@ -22,6 +22,7 @@ macro_rules! in_the_browser {
 mod bodies;
 mod camera;
 mod colors;
+mod exports;
 mod large;
 mod marks;
 mod methods;
