@@ -23,6 +23,7 @@ mod bodies;
 mod camera;
 mod colors;
 mod editing;
+mod exports;
 mod large;
 mod marks;
 mod methods;
