@@ -38,13 +38,28 @@ impl Site {
         Site { child, address: address.trim().to_owned() }
     }
 
+    /// Returns the process ID of the server.
+    pub(crate) fn process(&self) -> String {
+        self.child.id().to_string()
+    }
+
     /// Runs a test of `page.mjs` in a browser, and asserts that it succeeds. `argument` is for the test.
     pub(crate) fn shows(&self, test: &str, argument: &str) {
+        self.shows_in(&[], test, argument);
+    }
+
+    /// Runs a test like [`Site::shows`], in Firefox.
+    pub(crate) fn shows_in_firefox(&self, test: &str, argument: &str) {
+        self.shows_in(&[("JABUKA_BROWSER_NAME", "firefox")], test, argument);
+    }
+
+    fn shows_in(&self, browser: &[(&str, &str)], test: &str, argument: &str) {
         let output = Command::new(root().join("tests/preview/browser"))
             .args(["../playground/page.mjs", test, &self.address, argument])
+            .envs(browser.iter().copied())
             .output()
             .unwrap();
-        assert!(output.status.success(), "{test}: {}", String::from_utf8_lossy(&output.stderr));
+        assert!(output.status.success(), "{test} {browser:?}: {}", String::from_utf8_lossy(&output.stderr));
     }
 }
 
