@@ -37,8 +37,8 @@ pub const FILES: &[(&str, &str, &[u8])] = &[
     ("/surroundings.js", JAVASCRIPT_TYPE, include_bytes!("web/surroundings.js")),
     ("/texts.js", JAVASCRIPT_TYPE, include_bytes!("web/texts.js")),
     ("/viewpoint.js", JAVASCRIPT_TYPE, include_bytes!("web/viewpoint.js")),
-    ("/DejaVuSans.ttf", "font/ttf", font::FILES[0].1),
-    ("/DejaVuSans-Bold.ttf", "font/ttf", font::FILES[1].1),
+    ("/DejaVuSans.ttf", "font/ttf", font::BUILT_IN[0]),
+    ("/DejaVuSans-Bold.ttf", "font/ttf", font::BUILT_IN[1]),
 ];
 
 #[cfg(test)]

@@ -7,3 +7,4 @@ mod support;
 mod digests;
 mod page;
 mod site;
+mod size;
