@@ -7,7 +7,8 @@ import { once } from "node:events";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
-import { launch, newPage, open } from "../tests/preview/browser.mjs";
+import { newPage, open } from "../tests/preview/browser.mjs";
+import { launch } from "../tests/preview/launch.mjs";
 
 const [jabuka, scene] = process.argv.slice(2).map((path) => resolve(path));
 const folder = mkdtempSync(join(tmpdir(), "jabuka-"));

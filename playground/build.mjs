@@ -6,6 +6,8 @@ import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, w
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
+import { FONTS } from "./web/fonts.js";
+
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, "..");
 const page = join(root, "src/page/web");
@@ -30,12 +32,13 @@ await build({ ...common, entryPoints: [join(here, "web/worker.js")], outdir: dis
 
 copyFileSync(module, join(dist, "jabuka.wasm"));
 for (const name of ["icon.svg"]) copyFileSync(join(page, name), join(dist, name));
-for (const name of ["DejaVuSans.ttf", "DejaVuSans-Bold.ttf"]) copyFileSync(join(root, "templates/assets", name), join(dist, name));
+for (const name of FONTS) copyFileSync(join(root, "templates/assets", name), join(dist, name));
 const style = ["style.css", "playground.css"].map((name) => readFileSync(join(name === "style.css" ? page : join(here, "web"), name), "utf8"));
 writeFileSync(join(dist, "style.css"), style.join(""));
+const preloads = ["jabuka.wasm", ...FONTS].map((name) => `<link rel="preload" href="${name}" as="fetch" crossorigin>`).join("\n");
 const html = readFileSync(join(page, "index.html"), "utf8")
   .replace(/<link rel="modulepreload"[^>]*>\n/g, "")
-  .replace("<title>", `<meta http-equiv="Content-Security-Policy" content="${POLICY}">\n<link rel="preload" href="jabuka.wasm" as="fetch" crossorigin>\n<title>`);
+  .replace("<title>", `<meta http-equiv="Content-Security-Policy" content="${POLICY}">\n${preloads}\n<title>`);
 writeFileSync(join(dist, "index.html"), html);
 
 // The shelf has the topics, titles and sentences of the gallery's page.

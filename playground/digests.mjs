@@ -5,6 +5,7 @@ import { readFileSync, readdirSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
 
 import { unpacked } from "../src/page/web/packed_files.js";
+import { FONTS } from "./web/fonts.js";
 import { Jabuka } from "./web/module.js";
 
 /** The number of frames whose scripts are made together. */
@@ -12,6 +13,7 @@ const TOGETHER = 100;
 
 const [path, ...scenes] = process.argv.slice(2);
 const module = new WebAssembly.Module(readFileSync(path));
+const fonts = FONTS.map((name) => readFileSync(new URL(`../templates/assets/${name}`, import.meta.url)));
 
 /** Returns the bytes of all files below a folder, by path. */
 function filesBelow(folder, before = "") {
@@ -27,7 +29,7 @@ function filesBelow(folder, before = "") {
 const digests = {};
 for (const scene of scenes) {
   const begun = performance.now();
-  const jabuka = await Jabuka.start(module);
+  const jabuka = await Jabuka.start(module, fonts);
   jabuka.put(filesBelow(dirname(scene)));
   const { current, problem } = jabuka.read(basename(scene));
   if (problem) throw new Error(problem);

@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 use std::fmt;
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
 
 use owned_ttf_parser::{AsFaceRef, Face, OutlineBuilder, OwnedFace};
 
@@ -19,7 +19,7 @@ pub enum Weight {
 /// A font file.
 pub struct Font {
     file_name: Cow<'static, str>,
-    /// The font, parsed. `None` only for a file of jabuka's own that does not parse, which the tests below exclude.
+    /// The font, parsed. `None` only for fonts that the host has not given, or that do not parse.
     face: Option<OwnedFace>,
 }
 
@@ -30,14 +30,32 @@ pub struct Typeface {
     bold: Option<Font>,
 }
 
-/// The files of DejaVu Sans, regular and bold: their names and contents.
-pub static FILES: [(&str, &[u8]); 2] = [
-    ("DejaVuSans.ttf", include_bytes!("../templates/assets/DejaVuSans.ttf")),
-    ("DejaVuSans-Bold.ttf", include_bytes!("../templates/assets/DejaVuSans-Bold.ttf")),
+/// The contents of the files of DejaVu Sans, regular and bold.
+#[cfg(feature = "fonts")]
+pub(crate) const BUILT_IN: [&[u8]; 2] = [
+    include_bytes!("../templates/assets/DejaVuSans.ttf"),
+    include_bytes!("../templates/assets/DejaVuSans-Bold.ttf"),
 ];
+#[cfg(not(feature = "fonts"))]
+const BUILT_IN: [&[u8]; 2] = [&[]; 2];
+
+static GIVEN: OnceLock<[Vec<u8>; 2]> = OnceLock::new();
+
+/// Gives the library the contents of the files of DejaVu Sans, regular and bold. Without the feature `fonts`, its host must do so before it
+/// reads the first scene. Otherwise no text has a letter that can be drawn.
+pub fn give(files: [Vec<u8>; 2]) {
+    // The fonts that were given first stay.
+    let _ = GIVEN.set(files);
+}
+
+/// Returns the files of DejaVu Sans, regular and bold: their names and contents.
+pub fn files() -> [(&'static str, &'static [u8]); 2] {
+    let [regular, bold] = GIVEN.get().map_or(BUILT_IN, |files| files.each_ref().map(Vec::as_slice));
+    [("DejaVuSans.ttf", regular), ("DejaVuSans-Bold.ttf", bold)]
+}
 
 static DEJAVU_SANS: LazyLock<Typeface> = LazyLock::new(|| {
-    let [regular, bold] = FILES.map(|(name, bytes)| Font {
+    let [regular, bold] = files().map(|(name, bytes)| Font {
         file_name: name.into(),
         face: OwnedFace::from_vec(bytes.to_vec(), 0).ok(),
     });
@@ -254,8 +272,8 @@ mod tests {
     #[test]
     fn a_font_of_ones_own_must_be_one_that_povray_reads() {
         let own = |bytes: &[u8]| Typeface::of_file("own.ttf".to_owned(), bytes.to_vec());
-        assert_eq!(own(FILES[1].1).unwrap().font(Weight::Bold).file_name(), "own.ttf");
-        for bytes in [b"ttcf\0\x01".as_slice(), b"", b"no font", &FILES[0].1[..1000]] {
+        assert_eq!(own(BUILT_IN[1]).unwrap().font(Weight::Bold).file_name(), "own.ttf");
+        for bytes in [b"ttcf\0\x01".as_slice(), b"", b"no font", &BUILT_IN[0][..1000]] {
             assert!(own(bytes).is_err());
         }
     }

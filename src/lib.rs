@@ -27,6 +27,7 @@
 //! | feature | what it adds |
 //! | --- | --- |
 //! | `cli` | the program `jabuka` |
+//! | `fonts` | the fonts of texts; without it, call [`font::give`] before you read a scene |
 //! | `render` | the modules `output`, `render`, `cache`, `overwrite` and `sandbox`: files, POV-Ray, ffmpeg |
 //! | `preview` | the module `preview` |
 //! | `threads` | the use of several processor cores |

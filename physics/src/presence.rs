@@ -183,7 +183,7 @@ impl PresenceSchedule {
 }
 
 /// Functions for the checkpoints of the engine for time-stepping.
-#[cfg(feature = "time-stepping")]
+#[cfg(all(feature = "checkpoints", feature = "time-stepping"))]
 impl PresenceSchedule {
     /// Returns the number of births and deaths that have already happened.
     pub(super) fn over(&self) -> usize {

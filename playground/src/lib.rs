@@ -7,6 +7,9 @@
 //! 2. [`ask`] answers it, and returns a status of HTTP.
 //! 3. [`answer`] and [`answer_length`] tell where the answer is. It stays there until the next request.
 //!
+//! First of all, the script writes the two fonts into the same place, and calls [`take_fonts`]. The page has their files anyway, so the module
+//! does not hold them.
+//!
 //! Between requests, the script calls [`advance`], which simulates for some milliseconds.
 
 use std::cell::RefCell;
@@ -125,6 +128,16 @@ pub extern "C" fn room(length: usize) -> *mut u8 {
         worker.request = vec![0; length];
         worker.request.as_mut_ptr()
     })
+}
+
+/// Takes two files from the place of the request: DejaVu Sans, of `length` bytes, and after it DejaVu Sans Bold.
+#[unsafe(no_mangle)]
+pub extern "C" fn take_fonts(length: usize) {
+    WORKER.with_borrow_mut(|worker| {
+        let mut regular = std::mem::take(&mut worker.request);
+        let bold = regular.split_off(length.min(regular.len()));
+        jabuka::font::give([regular, bold]);
+    });
 }
 
 /// Answers the request, and returns its status: 200, or the status of HTTP that fits the error.

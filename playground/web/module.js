@@ -9,8 +9,10 @@ const GOOD = 200;
 const [NO_LINK, NO_FILE] = [28, 44];
 
 export class Jabuka {
-  /** Starts the module. `say` receives what it writes to standard error, a line at a time. */
-  static async start(module, say = console.warn) {
+  /**
+   * Starts the module with the contents of the files of the fonts. `say` receives what it writes to standard error, a line at a time.
+   */
+  static async start(module, fonts, say = console.warn) {
     const folder = new PreopenDirectory(".", new Map());
     const output = ConsoleStdout.lineBuffered(say);
     const wasi = new WASI([], [], [new OpenFile(new File([])), output, output, folder], { debug: false });
@@ -23,6 +25,12 @@ export class Jabuka {
     const instance = await WebAssembly.instantiate(module, { wasi_snapshot_preview1: { ...wasi.wasiImport, path_readlink } });
     wasi.initialize(instance);
     jabuka.exports = instance.exports;
+    const [regular, bold] = fonts;
+    const at = jabuka.exports.room(regular.length + bold.length);
+    const place = new Uint8Array(jabuka.exports.memory.buffer, at, regular.length + bold.length);
+    place.set(regular);
+    place.set(bold, regular.length);
+    jabuka.exports.take_fonts(regular.length);
     return jabuka;
   }
 

@@ -1,5 +1,7 @@
 // The source of all data of the page: jabuka itself, in a worker. It has the exports of the preview's source.
 
+import { FONTS } from "./fonts.js";
+
 export const REFUSED = typeof WebAssembly === "object" ? null : "This browser has no WebAssembly, which jabuka needs.";
 export const LOST = "jabuka has stopped. Change the scene to start it again.";
 export const CAN_RENDER = false;
@@ -7,7 +9,8 @@ export const CAN_RENDER = false;
 /** The time after which a worker that does not take a new scene is replaced, ms. One frame of a hard scene may take hours. */
 const PATIENCE = 1000;
 
-let module;
+/** The module and the fonts, which all workers share. */
+let parts;
 let isLoaded = false;
 let worker;
 /** The number of the worker. The numbers of its runs begin with it, so runs of two workers differ. */
@@ -41,11 +44,21 @@ function stop() {
   waiting.clear();
 }
 
+async function load() {
+  const bytes = async (name) => {
+    const response = await fetch(name);
+    if (!response.ok) throw new Error(`${name} is not there`);
+    return new Uint8Array(await response.arrayBuffer());
+  };
+  const [module, ...fonts] = await Promise.all([WebAssembly.compileStreaming(fetch("jabuka.wasm")), ...FONTS.map(bytes)]);
+  return { module, fonts };
+}
+
 async function start() {
   stop();
   const own = ++generation;
-  module ??= WebAssembly.compileStreaming(fetch("jabuka.wasm")).catch((error) => {
-    module = undefined;
+  parts ??= load().catch((error) => {
+    parts = undefined;
     throw error;
   });
   const made = new Worker("worker.js");
@@ -53,9 +66,9 @@ async function start() {
   made.onmessage = ({ data }) => own === generation && receive(data);
   made.onerror = () => own === generation && broken("the worker could not be started");
   try {
-    const loaded = await module;
+    const loaded = await parts;
     isLoaded = true;
-    if (own === generation) made.postMessage({ module: loaded });
+    if (own === generation) made.postMessage(loaded);
   } catch (error) {
     broken(error.message);
   }

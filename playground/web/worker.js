@@ -83,7 +83,7 @@ async function take(data) {
   if (ended) return;
   try {
     if (data.module) {
-      jabuka = await Jabuka.start(data.module, (line) => {
+      jabuka = await Jabuka.start(data.module, data.fonts, (line) => {
         said.push(line);
         if (said.length > 20) said.shift();
       });

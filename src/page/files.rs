@@ -65,8 +65,8 @@ pub const FILES: &[(&str, &str, &[u8])] = &[
     ("/libraries/video.js", JAVASCRIPT_TYPE, include_bytes!("web/libraries/video.js")),
     ("/libraries/zip.js", JAVASCRIPT_TYPE, include_bytes!("web/libraries/zip.js")),
     ("/libraries/licences.txt", "text/plain; charset=utf-8", include_bytes!("web/libraries/licences.txt")),
-    ("/DejaVuSans.ttf", "font/ttf", font::FILES[0].1),
-    ("/DejaVuSans-Bold.ttf", "font/ttf", font::FILES[1].1),
+    ("/DejaVuSans.ttf", "font/ttf", font::BUILT_IN[0]),
+    ("/DejaVuSans-Bold.ttf", "font/ttf", font::BUILT_IN[1]),
 ];
 
 #[cfg(test)]

@@ -46,6 +46,7 @@ mod answers;
 mod describe;
 mod exports;
 mod failed;
+#[cfg(feature = "fonts")]
 mod files;
 mod host;
 mod numbers;
@@ -60,6 +61,7 @@ mod swarms;
 
 pub use answers::{Answer, Frames, answer, answer_of_run};
 pub use failed::Failed;
+#[cfg(feature = "fonts")]
 pub use files::FILES;
 pub use host::{Host, RunStorage};
 #[cfg(feature = "preview")]

@@ -10,3 +10,4 @@ mod site;
 mod digests;
 mod page;
 mod plots;
+mod size;

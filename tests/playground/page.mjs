@@ -8,7 +8,7 @@ import { dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
 import { deflateRawSync, inflateRawSync } from "node:zlib";
 
-import { LONG, newPage, open, tests, until } from "../preview/browser.mjs";
+import { LONG, newPage, open, saved as savedFile, tests, until } from "../preview/browser.mjs";
 
 const playground = createRequire(join(dirname(fileURLToPath(import.meta.url)), "../../playground/"));
 
@@ -39,11 +39,9 @@ async function says(page, what) {
 
 /** Presses a button of the menu `Save`. Returns the bytes of the file, which must have this name. */
 async function saved(page, button, name) {
-  const download = page.waitForEvent("download");
-  await page.getByRole("button", { name: button }).click();
-  assert.equal((await download).suggestedFilename(), name);
+  const bytes = await savedFile(page, name, () => page.getByRole("button", { name: button }).click());
   await page.locator("#save-said", { hasText: `${name} is saved` }).waitFor();
-  return readFileSync(await (await download).path());
+  return bytes;
 }
 
 /** Opens the page with a ball that has a red label, at a frame of its run, and the menu `Save`. */
@@ -610,12 +608,12 @@ await tests({
     assert.ok(places[0] > places[2] + 0.05 && places[1] > places[2] + 0.05, `${places}`);
   },
 
-  async it_works_without_a_network_after_the_first_visit({ address, keep, browser }) {
-    const page = keep(await newPage(browser));
-    await open(page, address);
+  async it_works_without_a_network_after_the_first_visit({ open, address, scene: server }) {
+    const page = await open();
     await until(page, (jabuka) => jabuka.editor);
     await page.evaluate(() => navigator.serviceWorker.ready);
-    await page.context().setOffline(true);
+    // The library's own way to take away the network leaves it to service workers in Firefox.
+    process.kill(Number(server));
     await page.reload();
     await until(page, (jabuka) => jabuka?.drawn.count > 0 && jabuka.editor);
     await write(page, BALL);
@@ -642,11 +640,12 @@ await tests({
     }
   },
 
-  async accessibility_rules_hold({ open, keep, browser, address }) {
+  async accessibility_rules_hold({ keep, another, address }) {
     const axe = readFileSync(playground.resolve("axe-core/axe.min.js"), "utf8");
     for (const colorScheme of ["light", "dark"]) {
-      const page = keep(await newPage(browser, { colorScheme }));
+      const page = keep(await newPage(await another({ colorScheme }), { colorScheme }));
       await page.goto(address);
+      assert.equal(await page.evaluate(() => matchMedia("(prefers-color-scheme: dark)").matches), colorScheme === "dark");
       await until(page, (jabuka) => jabuka?.drawn.count > 0 && jabuka.settled && jabuka.editor);
       await page.evaluate(axe);
       for (const deed of [null, "Examples", "Save"]) {

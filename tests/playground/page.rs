@@ -1,4 +1,4 @@
-//! The page in a real browser. The tests are in `page.mjs`.
+//! The page in real browsers: all tests of `page.mjs` in Chromium, or in the browser that `JABUKA_BROWSER_NAME` names, and some in Firefox.
 
 use crate::site::Site;
 use crate::support::{compile, jabuka, root, scene, stderr};
@@ -26,7 +26,6 @@ in_the_browser! { "page.mjs":
     a_film_can_be_stopped_and_the_page_goes_on,
     without_an_encoder_the_menu_says_so,
     an_address_chooses_the_parts_of_the_page,
-    it_works_without_a_network_after_the_first_visit,
     small_windows_show_all_of_it,
     accessibility_rules_hold,
 }
@@ -36,7 +35,32 @@ in_the_browser! { "page.mjs":
 fn the_scripts_are_those_of_the_program() {
     let folder = tempfile::tempdir().unwrap();
     compile(&scene("hammer"), folder.path(), &[]);
-    Site::served().shows("page.mjs", "the_zip_file_has_these_files", folder.path().to_str().unwrap());
+    let site = Site::served();
+    for shows in [Site::shows, Site::shows_in_firefox] {
+        shows(&site, "page.mjs", "the_zip_file_has_these_files", folder.path().to_str().unwrap());
+    }
+}
+
+/// The test ends the server, which is a better test than a browser that pretends to be offline.
+#[test]
+fn it_works_without_a_network_after_the_first_visit() {
+    for shows in [Site::shows, Site::shows_in_firefox] {
+        let site = Site::served();
+        shows(&site, "page.mjs", "it_works_without_a_network_after_the_first_visit", &site.process());
+    }
+}
+
+mod firefox {
+    in_the_browser! { "page.mjs", shows_in_firefox:
+        the_first_visit_shows_a_scene,
+        an_edit_is_run_and_an_older_run_is_never_drawn_again,
+        an_error_is_marked_at_its_place_and_mended_by_a_click,
+        a_slider_changes_the_text_and_the_motion,
+        a_link_holds_the_scene,
+        files_that_are_dropped_lie_beside_the_scene,
+        small_windows_show_all_of_it,
+        accessibility_rules_hold,
+    }
 }
 
 /// The model and the table are those that the program writes.

@@ -6,14 +6,17 @@ use std::process::{Child, Command, Stdio};
 
 use crate::support::root;
 
-/// Declares tests of a script, each with a server of its own.
+/// Declares tests of a script, each with a server of its own. A second argument is the method of [`Site`] that runs them.
 macro_rules! in_the_browser {
-    ($script:literal: $($(#[$about:meta])* $test:ident),+ $(,)?) => {
+    ($script:literal: $($tests:tt)+) => {
+        in_the_browser! { $script, shows: $($tests)+ }
+    };
+    ($script:literal, $shows:ident: $($(#[$about:meta])* $test:ident),+ $(,)?) => {
         $(
             $(#[$about])*
             #[test]
             fn $test() {
-                $crate::site::Site::served().shows($script, stringify!($test), "");
+                $crate::site::Site::served().$shows($script, stringify!($test), "");
             }
         )+
     };
@@ -51,13 +54,28 @@ impl Site {
         Site { child, address: address.trim().to_owned() }
     }
 
+    /// Returns the process ID of the server.
+    pub(crate) fn process(&self) -> String {
+        self.child.id().to_string()
+    }
+
     /// Runs a test of a script in a browser, and asserts that it succeeds. `argument` is for the test.
     pub(crate) fn shows(&self, script: &str, test: &str, argument: &str) {
+        self.shows_in(&[], script, test, argument);
+    }
+
+    /// Runs a test like [`Site::shows`], in Firefox.
+    pub(crate) fn shows_in_firefox(&self, script: &str, test: &str, argument: &str) {
+        self.shows_in(&[("JABUKA_BROWSER_NAME", "firefox")], script, test, argument);
+    }
+
+    fn shows_in(&self, browser: &[(&str, &str)], script: &str, test: &str, argument: &str) {
         let output = Command::new(root().join("tests/preview/browser"))
             .args([format!("../playground/{script}").as_str(), test, &self.address, argument])
+            .envs(browser.iter().copied())
             .output()
             .unwrap();
-        assert!(output.status.success(), "{test}: {}", String::from_utf8_lossy(&output.stderr));
+        assert!(output.status.success(), "{test} {browser:?}: {}", String::from_utf8_lossy(&output.stderr));
     }
 }
 

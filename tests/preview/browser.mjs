@@ -1,33 +1,16 @@
-// Starts a real headless browser, and opens pages that record their errors.
+// Opens pages that record their errors, in a real headless browser.
 
 import assert from "node:assert/strict";
-import { existsSync } from "node:fs";
-import { createRequire } from "node:module";
+import { existsSync, readFileSync, statSync } from "node:fs";
+import { join } from "node:path";
 
-const { chromium } = createRequire(`${process.env.JABUKA_MODULES}/`)("playwright-core");
-
-/** The possible paths of the system's browser; the first existing one is used. */
-const PROGRAMS = [
-  "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome",
-  "/Applications/Chromium.app/Contents/MacOS/Chromium", "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
-];
-
-/** Options for WebGL in software, which gives the same pixels on every machine, and without background connections. */
-const OPTIONS = [
-  "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox", "--disable-quic", "--no-first-run",
-  "--disable-background-networking", "--disable-component-update", "--disable-sync",
-];
+import { DOWNLOADS, IS_FIREFOX, launch } from "./launch.mjs";
 
 /** A warning of the software WebGL driver that reading a pixel is slow. */
 const OF_DRIVER = /GL Driver Message .* GPU stall due to ReadPixels/;
 
 /** The time limit for each wait, ms. It is long enough for a busy machine. */
 export const LONG = 240_000;
-
-export async function launch(more = []) {
-  const executablePath = process.env.JABUKA_BROWSER ?? PROGRAMS.find(existsSync);
-  return chromium.launch({ executablePath, headless: true, args: [...OPTIONS, ...more] });
-}
 
 /** Opens a small page that records its errors and its requests. Messages that match `may` are not errors. */
 export async function newPage(browser, { size = { width: 900, height: 640 }, may = [], ...more } = {}) {
@@ -41,6 +24,11 @@ export async function newPage(browser, { size = { width: 900, height: 640 }, may
   page.on("pageerror", (error) => note(String(error)));
   page.on("dialog", (dialog) => (note(`a dialog: ${dialog.message()}`), dialog.dismiss()));
   page.on("request", (request) => page.asked.push(request));
+  // Firefox does not write failed requests to the console.
+  if (IS_FIREFOX) {
+    page.on("response", (response) => response.status() >= 400 && note(`a status of ${response.status()}: ${response.url()}`));
+    page.on("requestfailed", (request) => request.failure().errorText === "NS_BINDING_ABORTED" || note(`ERR_FAILED: ${request.url()}`));
+  }
   return page;
 }
 
@@ -62,8 +50,12 @@ export async function tests(all) {
   // Tests with several pages, or of the time before the first frame, open their pages themselves.
   const keep = (page) => (pages.push(page), page);
   const opened = async (options) => open(keep(await newPage(browser, options)), address);
-  // Starts a browser that resolves a host name to this machine.
-  const rebound = (name) => launch([`--host-resolver-rules=MAP ${name} 127.0.0.1`]);
+  const others = [];
+  // Starts another browser with these options of `launch`.
+  const another = async (options) => {
+    others.push(await launch(options));
+    return others.at(-1);
+  };
   const own = address.split("\n").flatMap((each) => [`${new URL(each).origin}/`, `blob:${new URL(each).origin}/`]);
   const check = async (page) => {
     assert.deepEqual(page.wrong, [], "what the page has complained of");
@@ -79,13 +71,13 @@ export async function tests(all) {
     await page.context().close();
   };
   try {
-    await all[name]({ browser, address, scene, open: opened, keep, close, rebound });
+    await all[name]({ browser, address, scene, open: opened, keep, close, another });
     for (const page of pages) await check(page);
   } catch (error) {
     console.error("The pages have complained of", pages.map((page) => [page.url(), page.wrong]));
     throw error;
   } finally {
-    await browser.close();
+    for (const each of [browser, ...others]) await each.close();
   }
 }
 
@@ -110,6 +102,24 @@ export const drawn = (page) => page.evaluate(async () => (await window.jabuka.wh
 export async function seek(page, frame) {
   await page.evaluate((frame) => window.jabuka.seek(frame), frame);
   assert.equal(await drawn(page), frame);
+}
+
+/** Waits until the browser has saved a file with this name, after `deed`, and returns its bytes. */
+export async function saved(page, name, deed) {
+  if (!IS_FIREFOX) {
+    const [download] = await Promise.all([page.waitForEvent("download"), deed()]);
+    assert.equal(download.suggestedFilename(), name);
+    return readFileSync(await download.path());
+  }
+  await deed();
+  const file = join(DOWNLOADS, name);
+  const size = () => (existsSync(file) ? statSync(file).size : 0);
+  const end = performance.now() + LONG;
+  for (let before; !size() || size() !== before; await page.waitForTimeout(300)) {
+    assert.ok(performance.now() < end, `${name} is not saved`);
+    before = size();
+  }
+  return readFileSync(file);
 }
 
 /** Waits for all poses of the displayed run, and returns them as one text. */

@@ -63,19 +63,14 @@ await tests({
     }
   },
 
-  async a_name_that_is_let_point_here_gets_nothing({ address, rebound }) {
+  async a_name_that_is_let_point_here_gets_nothing({ address, another }) {
     // By DNS rebinding, a page at evil.example has the same origin as the server that its name now points to.
-    const browser = await rebound("evil.example");
-    try {
-      const page = await newPage(browser);
-      const there = address.replace("127.0.0.1", "evil.example");
-      const answer = await page.goto(there);
-      assert.equal(answer.status(), 403);
-      const got = await page.evaluate(async () => (await fetch(`/api/runs/1${location.search}`)).status);
-      assert.equal(got, 403);
-    } finally {
-      await browser.close();
-    }
+    const page = await newPage(await another({ host: "evil.example" }));
+    const there = address.replace("127.0.0.1", "evil.example");
+    const answer = await page.goto(there);
+    assert.equal(answer.status(), 403);
+    const got = await page.evaluate(async () => (await fetch(`/api/runs/1${location.search}`)).status);
+    assert.equal(got, 403);
   },
 
   async a_page_without_the_token_says_what_to_open({ address, browser, keep }) {

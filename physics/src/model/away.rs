@@ -120,6 +120,7 @@ impl Model {
     }
 
     /// Returns the absent bodies, each with the velocity (m/s) and the angular momentum (kg m²/s) with which it will appear.
+    #[cfg(feature = "checkpoints")]
     pub(in super::super) fn away(&self) -> Vec<(usize, DVec3, DVec3)> {
         let away = self.away.iter().enumerate();
         away.filter_map(|(i, away)| away.as_ref().map(|away| (i, away.velocity, away.angular_momentum)))
@@ -128,6 +129,7 @@ impl Model {
 
     /// Makes exactly these bodies absent, with the velocity and angular momentum with which each will appear; all other bodies become
     /// present.
+    #[cfg(feature = "checkpoints")]
     pub(in super::super) fn set_away(&mut self, away: &[(usize, DVec3, DVec3)], state: &mut State) {
         let mut is_there = vec![true; self.inverse_mass.len()];
         away.iter().for_each(|(i, ..)| is_there[*i] = false);

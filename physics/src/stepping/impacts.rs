@@ -110,6 +110,7 @@ impl Impacts {
     }
 
     /// Returns whether there are impacts that [`take`](Self::take) has not returned yet.
+    #[cfg(feature = "checkpoints")]
     pub(super) fn is_empty(&self) -> bool {
         self.found.is_empty()
     }

@@ -52,6 +52,7 @@ impl KeptContacts {
     }
 
     /// Continues with an engine that has been restored from a checkpoint.
+    #[cfg(feature = "checkpoints")]
     pub(super) fn resume(&mut self, engine: &PhysicsWorld, orientation: Vec<DQuat>, location: Vec<DVec3>) {
         (self.orientation, self.location) = (orientation, location);
         for body in &mut self.bodies {

@@ -66,6 +66,7 @@ mod advance;
 mod bodies;
 mod bookkeeping;
 mod bounce;
+#[cfg(feature = "checkpoints")]
 mod checkpoint;
 mod contact_body;
 mod convex_parts;
@@ -315,10 +316,12 @@ impl Dynamics for TimeStepping {
         self.steps
     }
 
+    #[cfg(feature = "checkpoints")]
     fn checkpoint(&mut self) -> Option<Vec<u8>> {
         self.save()
     }
 
+    #[cfg(feature = "checkpoints")]
     fn resume(&mut self, checkpoint: &[u8]) -> bool {
         self.load(checkpoint)
     }

@@ -10,7 +10,6 @@ use std::collections::HashSet;
 
 use glam::DVec3;
 use rapier3d_f64::prelude::{ColliderHandle, ContactModificationContext, ContactPair};
-use serde::{Deserialize, Serialize};
 
 use super::super::contact::Impact;
 use super::super::motion::Twist;
@@ -37,7 +36,8 @@ pub(super) struct Rebounds {
 }
 
 /// The second impulse of a contact, one step after an impact began there.
-#[derive(Clone, Serialize, Deserialize)]
+#[derive(Clone)]
+#[cfg_attr(feature = "checkpoints", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Rebound {
     /// The pair of colliders.
     pub(super) pair: [ColliderHandle; 2],

@@ -77,6 +77,7 @@ impl Rolling {
     }
 
     /// Reads the orientations of balls in the physics engine, after it has been restored from a checkpoint. `handles` holds the engine's handle of each body.
+    #[cfg(feature = "checkpoints")]
     pub(super) fn resume(&mut self, engine: &PhysicsWorld, handles: &[RigidBodyHandle]) {
         for (round, handle) in self.round.iter_mut().zip(handles) {
             let Some(round) = round else { continue };

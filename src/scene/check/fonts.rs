@@ -24,7 +24,7 @@ impl Fonts {
     /// Adds the font files to the assets. If the scene already has a file of such a name among its assets, that file is taken for a font of
     /// jabuka. Reports a font of a label whose copy would have the path of another asset.
     pub(super) fn add_to(self, assets: &mut Vec<Asset>, context: &mut Context<'_>) {
-        let [regular, bold] = font::FILES;
+        let [regular, bold] = font::files();
         for (name, bytes) in [Some(regular), Some(bold).filter(|_| self.has_bold)].into_iter().flatten() {
             if assets.iter().all(|asset| asset.name != name) {
                 assets.push(Asset { name: name.to_owned(), source: AssetSource::BuiltIn(bytes) });

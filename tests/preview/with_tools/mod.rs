@@ -1,6 +1,7 @@
 //! Tests of the preview's page in a real browser.
 //!
-//! `tests/preview/browser` runs the tests written in JavaScript, each in its own browser and with its own server.
+//! `tests/preview/browser` runs the tests written in JavaScript, each in its own browser and with its own server. They run in Chromium, or in the
+//! browser that `JABUKA_BROWSER_NAME` names.
 
 use std::process::Command;
 
@@ -24,6 +25,7 @@ mod camera;
 mod colors;
 mod editing;
 mod exports;
+mod firefox;
 mod large;
 mod marks;
 mod methods;
@@ -50,17 +52,27 @@ impl Server {
 
     /// Runs a test of a JavaScript file like [`Server::shows`], but with this address instead of the server's own.
     pub(super) fn shows_at(&self, address: &str, script: &str, test: &str) -> String {
+        self.shows_in(&[], address, script, test)
+    }
+
+    /// Runs a test of a JavaScript file like [`Server::shows`], in Firefox.
+    fn shows_in_firefox(&self, script: &str, test: &str) {
+        self.shows_in(&[("JABUKA_BROWSER_NAME", "firefox")], &self.address, script, test);
+    }
+
+    fn shows_in(&self, browser: &[(&str, &str)], address: &str, script: &str, test: &str) -> String {
         let output = Command::new(root().join("tests/preview/browser"))
             .args([script, test, address])
             .arg(self.scene.path())
             .env("JABUKA", env!("CARGO_BIN_EXE_jabuka"))
+            .envs(browser.iter().copied())
             .current_dir(self.scene.folder())
             .output()
             .unwrap();
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(
             output.status.success(),
-            "{test} of {}: {said}\nthe server said: {}",
+            "{test} of {} {browser:?}: {said}\nthe server said: {}",
             self.scene.name,
             self.said()
         );

@@ -253,6 +253,7 @@ fn a_guided_body_takes_others_along_and_does_work() {
 /// Checkpoints are taken at several moments of a run with a pile, a pendulum, and bodies that appear and disappear. Runs that continue
 /// from a checkpoint must give the same bits as an uninterrupted run.
 #[test]
+#[cfg(feature = "checkpoints")]
 fn a_run_goes_on_from_a_checkpoint_with_the_same_bits() {
     let mut scene = Scene::default().with_ground(0.0);
     for k in 0..30 {

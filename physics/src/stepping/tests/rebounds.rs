@@ -68,6 +68,7 @@ fn a_joint_shares_a_rebound() {
 
 /// A rebound takes two steps. A run that is resumed between them must continue with the same bits.
 #[test]
+#[cfg(feature = "checkpoints")]
 fn a_checkpoint_keeps_a_rebound() {
     let (mut whole, _) = hammer(0.5);
     let (mut parts, _) = hammer(0.5);
