@@ -32,12 +32,12 @@ pub struct Typeface {
 
 /// The contents of the files of DejaVu Sans, regular and bold.
 #[cfg(feature = "fonts")]
-pub(crate) const BUILT_IN: [&[u8]; 2] = [
+pub(crate) static BUILT_IN: [&[u8]; 2] = [
     include_bytes!("../templates/assets/DejaVuSans.ttf"),
     include_bytes!("../templates/assets/DejaVuSans-Bold.ttf"),
 ];
 #[cfg(not(feature = "fonts"))]
-const BUILT_IN: [&[u8]; 2] = [&[]; 2];
+static BUILT_IN: [&[u8]; 2] = [&[]; 2];
 
 static GIVEN: OnceLock<[Vec<u8>; 2]> = OnceLock::new();
 
