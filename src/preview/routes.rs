@@ -51,7 +51,7 @@ pub(super) struct Server {
 
 /// The content security policy of the page: it can load its own files and send requests to this server, nothing else.
 const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
-    img-src 'self' blob:; font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+    img-src 'self' blob: data:; font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 /// The headers that the server adds to its responses. They restrict what a browser does with a response.
 const SECURITY_HEADERS: [(HeaderName, &str); 6] = [

@@ -1,7 +1,7 @@
 // Tests of angles, dimension lines and names of arrows, over the picture.
 
 import assert from "node:assert/strict";
-import { seek, tests, until } from "./browser.mjs";
+import { drawn, seek, tests, until } from "./browser.mjs";
 import { box, place } from "./picture.mjs";
 
 /** Returns the middle of the text with these words, or nothing. */
@@ -31,7 +31,7 @@ await tests({
     await page.mouse.down();
     await page.mouse.move(x + width / 2 + 60, y + height / 2 + 30, { steps: 4 });
     await page.mouse.up();
-    await until(page, (jabuka) => jabuka.settled);
+    await drawn(page);
     const [second, ...after] = await ways();
     assert.ok(Math.hypot(second[0] - first[0], second[1] - first[1]) > 20, "the ball is seen elsewhere");
     for (const [k, way] of after.entries()) assert.ok(Math.abs(way - before[k]) < 0.5 * before[k], `${way} px, not about ${before[k]}`);
