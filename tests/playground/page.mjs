@@ -630,7 +630,7 @@ await tests({
       await until(page, (jabuka) => jabuka.editor);
       const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
       assert.ok(overflow <= 0, `${width} × ${height}: ${overflow} pixels are outside`);
-      for (const id of ["picture", "editor", "controls", "plots", "panel"]) {
+      for (const id of ["picture", "editor", "controls", "sliders", "plots", "body"]) {
         const element = page.locator(`#${id}`);
         await element.scrollIntoViewIfNeeded();
         const box = await element.boundingBox();
