@@ -190,15 +190,6 @@ impl PageRun {
         })
     }
 
-    /// Simulates a whole run.
-    #[cfg(test)]
-    pub(super) fn whole(scene: Scene) -> Arc<PageRun> {
-        let run = PageRun::new(1, Arc::new(scene), Arc::new(super::host::NoHost), None);
-        let mut work = run.work();
-        while work.advance() {}
-        run
-    }
-
     /// Returns the work of this run, of which nothing is done yet. It is done only once.
     pub fn work(self: &Arc<PageRun>) -> RunWork {
         let run = Arc::clone(self);
@@ -392,5 +383,16 @@ pub(super) fn no_room(error: &io::Error) -> Report {
     Report {
         diagnostics: vec![Diagnostic::error(Code::CannotWrite, message).help(help)],
         ..Report::default()
+    }
+}
+
+#[cfg(test)]
+impl PageRun {
+    /// Simulates a whole run.
+    pub(super) fn whole(scene: Scene) -> Arc<PageRun> {
+        let run = PageRun::new(1, Arc::new(scene), Arc::new(super::host::NoHost), None);
+        let mut work = run.work();
+        while work.advance() {}
+        run
     }
 }

@@ -12,7 +12,7 @@ use jabuka::diagnostic::{Code, Diagnostic, Report, Sources, Span, nearest, visib
 use jabuka::explain::Explanation;
 use jabuka::font::{Step, Typeface, Weight};
 use jabuka::lettering;
-use jabuka::page::{Frames, Host, PageRun, Session, answer};
+use jabuka::page::{Frames, Host, PageRun, Session, answer, text_version};
 use jabuka::physics::Method;
 use jabuka::report::plot::{Chart, Curve, Picture, png, svg};
 use jabuka::report::{Assessment, assess};
@@ -25,7 +25,7 @@ use jabuka::simulate::Selection;
 use proptest::prelude::*;
 
 /// The public functions with a text argument that are tried here, as `file: name`.
-const TRIED: [&str; 54] = [
+const TRIED: [&str; 55] = [
     "catalog.rs: named",
     "diagnostic/code.rs: named",
     "diagnostic/mod.rs: at",
@@ -55,6 +55,7 @@ const TRIED: [&str; 54] = [
     "page/answers.rs: answer",
     "page/answers.rs: answer_of_run",
     "page/session.rs: set_variable",
+    "page/session.rs: text_version",
     "report/plot/chart.rs: of_charts",
     "report/plot/mod.rs: of",
     "report/text.rs: to_text",
@@ -272,6 +273,7 @@ proptest! {
             let _ = answer(&SESSION, &path, &Frames::default());
         }
         prop_assert!(SESSION.set_variable(&text, 1.0).is_err());
+        prop_assert_eq!(text_version(&text) == text_version(&other), text == other);
 
         let _ = Scene::parse(&text).map_err(|report| report.to_text(false));
         let options = Options { overrides: vec![Override::new(&other)], trust: true, ..Options::default() };
