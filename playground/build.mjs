@@ -61,7 +61,10 @@ for (const file of new Set(topics.flatMap(({ scenes }) => scenes.flatMap(({ file
   mkdirSync(dirname(join(dist, "scenes", file)), { recursive: true });
   copyFileSync(join(root, "scenes", file), join(dist, "scenes", file));
 }
-writeFileSync(join(dist, "scenes/shelf.json"), JSON.stringify(topics));
+// What `jabuka new` writes is the first.
+copyFileSync(join(root, "src/starter.toml"), join(dist, "scenes/first.toml"));
+const starter = { name: "first", title: "A first scene", about: "The main keys, with comments: change what you like.", files: [], isNew: true };
+writeFileSync(join(dist, "scenes/shelf.json"), JSON.stringify([{ topic: "A scene of your own", scenes: [starter] }, ...topics]));
 
 // The licences of what the page contains.
 const { packages } = JSON.parse(readFileSync(join(here, "package-lock.json"), "utf8"));

@@ -18,8 +18,8 @@ export function makeShelf(chosen) {
   let topics;
   const shelf = async () => (topics ??= (await fetched("scenes/shelf.json")).json());
 
-  const card = ({ name, title, about }) => {
-    const picture = make("img", { src: `scenes/${name}.jpg`, alt: "", loading: "lazy", width: 320, height: 180 });
+  const card = ({ name, title, about, isNew }) => {
+    const picture = isNew ? "" : make("img", { src: `scenes/${name}.jpg`, alt: "", loading: "lazy", width: 320, height: 180 });
     const deed = () => {
       dialog.close();
       chosen(name);

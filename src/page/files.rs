@@ -52,6 +52,7 @@ pub const FILES: &[(&str, &str, &[u8])] = &[
     ("/runs.js", JAVASCRIPT_TYPE, include_bytes!("web/runs.js")),
     ("/save.js", JAVASCRIPT_TYPE, include_bytes!("web/save.js")),
     ("/scene_plots.js", JAVASCRIPT_TYPE, include_bytes!("web/scene_plots.js")),
+    ("/script_part.js", JAVASCRIPT_TYPE, include_bytes!("web/script_part.js")),
     ("/scripts_zip.js", JAVASCRIPT_TYPE, include_bytes!("web/scripts_zip.js")),
     ("/shaders.js", JAVASCRIPT_TYPE, include_bytes!("web/shaders.js")),
     ("/sliders.js", JAVASCRIPT_TYPE, include_bytes!("web/sliders.js")),

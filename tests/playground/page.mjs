@@ -407,6 +407,19 @@ await tests({
     assert.equal(await picture(), bare);
   },
 
+  async the_script_of_a_body_is_shown(all) {
+    const page = await openBall(all);
+    const part = page.locator("#script-part");
+    assert.equal(await part.isVisible(), false);
+    await page.locator("#body-name").fill("ball");
+    await page.locator("#body-name").press("Enter");
+    await part.locator("summary").click();
+    const text = page.locator("#script-text");
+    await text.filter({ hasText: "sphere { <0, 3, 0>, 0.5 } // ball" }).waitFor();
+    await page.evaluate(() => window.jabuka.seek(25));
+    await text.filter({ hasText: "sphere { <1, 3, 0>, 0.5 } // ball" }).waitFor();
+  },
+
   async a_link_holds_the_scene(all) {
     const page = await openBall(all);
     const text = BALL.replace("[1, 0, 0]", '["2*pi", 0, 0] # ≈ 2π');
@@ -467,6 +480,9 @@ await tests({
     const count = await page.locator(".card").count();
     assert.ok(count > 60, `${count}`);
     assert.ok(await page.locator(".card img").first().evaluate((image) => image.decode().then(() => image.naturalWidth === 320)));
+    await page.locator(".card", { hasText: "A first scene" }).click();
+    await until(page, () => document.title.startsWith("A first scene"));
+    await page.getByRole("button", { name: "Examples" }).click();
     await page.locator(".card", { hasText: "Two carts" }).click();
     await until(page, () => document.title.startsWith("Two carts"));
     assert.equal(new URL(page.url()).hash, "#gallery=carts");

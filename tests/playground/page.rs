@@ -16,6 +16,7 @@ in_the_browser! { "page.mjs":
     sliders_on_one_line_do_not_write_into_each_other,
     the_tutorial_goes_from_a_ball_to_a_link,
     the_trail_and_the_arrows_of_the_chosen_body_are_drawn,
+    the_script_of_a_body_is_shown,
     a_link_holds_the_scene,
     damaged_and_hostile_links_are_refused,
     a_scene_that_takes_for_ever_gives_way_to_the_next,

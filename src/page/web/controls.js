@@ -187,6 +187,7 @@ export function listen() {
     redraw();
   };
   listenToChosen();
+  element("script-part").ontoggle = redraw;
   window.addEventListener("keydown", pressed);
   new ResizeObserver(redraw).observe(element("stage"));
   watchPointers();

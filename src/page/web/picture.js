@@ -3,6 +3,7 @@
 import { showChosen } from "./chosen_body.js";
 import { camera as cameraLines, Lines, thing, trail } from "./lines.js";
 import { axes, encoded, isThere, length, short, sub } from "./math.js";
+import { showScriptPart } from "./script_part.js";
 import { PARTICLE } from "./run.js";
 import { drawn, element, open, panel, player, plots, texts, viewpoint } from "./parts.js";
 import { layout } from "./texts.js";
@@ -69,6 +70,7 @@ function draw() {
   status(run);
   plots.mark(player.time);
   panel.show(frame);
+  showScriptPart();
   Object.assign(drawn, { count: drawn.count + 1, run: run.id, frame, position, view });
   for (const one of drawn.waiting.splice(0)) if (!one()) drawn.waiting.push(one);
 }
