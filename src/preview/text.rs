@@ -13,7 +13,7 @@ use std::sync::PoisonError;
 use serde::{Deserialize, Serialize};
 
 use crate::page::{Failed, text_version};
-use crate::system::Dir;
+use crate::system::{Dir, FolderError};
 
 /// The file of the scene.
 pub(super) struct SceneFile {
@@ -99,26 +99,34 @@ impl SceneFile {
             return Err(Failed::Changed);
         }
         let mark = if form.has_mark { "\u{feff}" } else { "" };
-        replace(&self.path, &[mark, &text])?;
+        replace(&self.path, &whole, &[mark, &text])?;
         Ok(version)
     }
 }
 
-/// Replaces the contents of a file. If its path is a link, the file at its end is replaced.
-fn replace(path: &Path, parts: &[&str]) -> io::Result<()> {
+/// Replaces the contents of a file, which are `old` before. If its path is a link, the file at its end is replaced.
+fn replace(path: &Path, old: &str, parts: &[&str]) -> Result<(), Failed> {
     let file = fs::canonicalize(path)?;
     let permissions = fs::metadata(&file)?.permissions();
     if permissions.readonly() {
-        return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is read-only"));
+        return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is read-only").into());
     }
-    let folder = Dir::of_path(file.parent().unwrap_or(Path::new(".")))?;
+    let folder = Dir::of_path(file.parent().unwrap_or(Path::new("."))).map_err(io::Error::from)?;
     let name = file.file_name().unwrap_or(OsStr::new(""));
-    folder.write_whole(name, |out| -> io::Result<()> {
+    folder.write_whole(name, |out| -> Result<(), Failed> {
         out.get_ref().set_permissions(permissions)?;
         parts.iter().try_for_each(|part| out.write_all(part.as_bytes()))?;
         out.flush()?;
-        out.get_ref().sync_all()
+        out.get_ref().sync_all()?;
+        // The disk may have taken its time, and another program may have written meanwhile. What is left is the moment of the renaming.
+        if fs::read(&file)? == old.as_bytes() { Ok(()) } else { Err(Failed::Changed) }
     })
+}
+
+impl From<FolderError> for Failed {
+    fn from(error: FolderError) -> Failed {
+        Failed::Io(error.into())
+    }
 }
 
 #[cfg(test)]
@@ -156,6 +164,17 @@ mod tests {
         assert_eq!(whole, "a = 1\n");
         // Another page may have written the same.
         assert!(edited("a = 1\n", "a = 1\n", Some(&text_version("a = 0\n"))).0.is_ok());
+    }
+
+    #[test]
+    fn what_another_program_writes_meanwhile_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.toml");
+        fs::write(&path, "theirs\n").unwrap();
+        let written = replace(&path, "old\n", &["new\n"]);
+        assert!(matches!(written, Err(Failed::Changed)), "{written:?}");
+        assert_eq!(fs::read_to_string(&path).unwrap(), "theirs\n");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
     #[cfg(unix)]

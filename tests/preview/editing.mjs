@@ -80,11 +80,22 @@ await tests({
     const before = readFileSync(scene, "utf8");
     const theirs = before.replace("value = 1", "value = 3");
     const page = await opened(open);
-    // The page types on while another program writes, so that it cannot take the new text in time.
+    // The user types on while another program writes: the page does not pause, so it neither writes its text nor takes the new one.
     const conflict = async (mine) => {
-      await type(page, "duration", "# mine\nduration");
+      await page.evaluate(() => {
+        const { view } = window.jabuka.editor;
+        const from = view.state.doc.toString().indexOf("duration");
+        view.dispatch({ changes: { from, insert: "#\n" } });
+        window.typing = setInterval(() => view.dispatch({ changes: { from: from + 1, insert: "." } }), 50);
+      });
       writeFileSync(scene, theirs);
-      await type(page, "# mine", mine);
+      await page.evaluate((mine) => {
+        clearInterval(window.typing);
+        const { view } = window.jabuka.editor;
+        const [typed] = /^#\.*$/m.exec(view.state.doc.toString());
+        const from = view.state.doc.toString().indexOf(typed);
+        view.dispatch({ changes: { from, to: from + typed.length, insert: mine } });
+      }, mine);
       await says(page, "Another program has changed the file.");
       assert.equal(readFileSync(scene, "utf8"), theirs);
     };
