@@ -7,8 +7,8 @@
 //! 2. [`ask`] answers it, and returns a status of HTTP.
 //! 3. [`answer`] and [`answer_length`] tell where the answer is. It stays there until the next request.
 //!
-//! First of all, the script writes the two fonts into the same place, and calls [`take_fonts`]. The page has their files anyway, so the module
-//! does not hold them.
+//! Before the first request, the script writes two font files to the address of [`room`], and calls [`take_fonts`]. The module contains no
+//! fonts itself, because the page downloads these files for its own texts.
 //!
 //! Between requests, the script calls [`advance`], which simulates for some milliseconds.
 

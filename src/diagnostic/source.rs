@@ -82,7 +82,7 @@ impl Sources {
         &self.files
     }
 
-    /// Returns the text of the scene itself. `None` if it could not be read.
+    /// Returns the text of the scene's own file, not of a file that it includes. `None` if it could not be read.
     pub fn of_scene(&self) -> Option<&Source> {
         self.texts.first().map(|source| &**source)
     }

@@ -31,7 +31,7 @@
 //!
 //! - The page is plain modules and WebGL2, without a build step. The libraries that it needs, such as that of the editor, are bundles made by
 //!   `libraries/build`. They are committed, so that building jabuka needs no npm, and loaded when they are needed.
-//! - The page edits the text of the scene where its host lets it (`web/text.js`). Each text has a version, so that nothing is overwritten
+//! - The page edits the text of the scene where its host lets it (`web/scene_text.js`). Each text has a version, so that nothing is overwritten
 //!   that another program has written meanwhile.
 //! - A picture that is saved is drawn as one of the page, in another size; what stands over it is painted to a canvas (`web/overlay.js`).
 //! - Each run has a unique number. The page requests the frames of a run in pieces of at most 2 MB, and keeps 256 MB of them. If the run has

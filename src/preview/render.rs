@@ -38,7 +38,7 @@ pub(super) struct Wanted {
     fine: bool,
 }
 
-/// A camera of the viewer, as `[camera]` of a scene describes it.
+/// The own camera of the viewer. Its fields have the meaning of the keys of `[camera]`.
 #[derive(Clone, Debug, Deserialize)]
 struct OwnCamera {
     /// The location of the camera, m.

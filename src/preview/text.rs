@@ -118,7 +118,7 @@ fn replace(path: &Path, old: &str, parts: &[&str]) -> Result<(), Failed> {
         parts.iter().try_for_each(|part| out.write_all(part.as_bytes()))?;
         out.flush()?;
         out.get_ref().sync_all()?;
-        // The disk may have taken its time, and another program may have written meanwhile. What is left is the moment of the renaming.
+        // Writing takes time, in which another program may have changed the file. Only a change during the renaming itself is not noticed.
         if fs::read(&file)? == old.as_bytes() { Ok(()) } else { Err(Failed::Changed) }
     })
 }

@@ -6,7 +6,7 @@ import {
   lintGutter, lintKeymap, searchKeymap, setDiagnostics, syntaxHighlighting, tags, toml,
 } from "./libraries/codemirror.js";
 import { draggedNumbers, numberKeys } from "./dragged_numbers.js";
-import { completions, described } from "./keys.js";
+import { completions, described } from "./scene_keys.js";
 
 /** The colors of the page, in light and dark. */
 const COLORS = HighlightStyle.define([

@@ -6,7 +6,7 @@ import { element, open } from "./parts.js";
 import { tick } from "./picture.js";
 import { changed, sayProblem } from "./runs.js";
 import { CAN_RENDER, REFUSED, follow } from "./source.js";
-import { listenToText, takeState } from "./text.js";
+import { listenToText, takeState } from "./scene_text.js";
 
 function begin() {
   const nothing = element("nothing");

@@ -3,7 +3,7 @@
 import { short } from "./math.js";
 import { element, redraw } from "./parts.js";
 import { MOVED, setVariable } from "./source.js";
-import { isEdited, setInText } from "./text.js";
+import { isEdited, setInText } from "./scene_text.js";
 
 /** The number of steps of a slider whose scene gives none: at least this many. */
 const MIN_STEPS = 100;

@@ -48,7 +48,7 @@ fn a_frame_is_rendered_first_as_a_draft_and_then_as_the_final_image() {
     }
 }
 
-/// The image is that of a scene with the camera that the page copies.
+/// The image equals that of a scene whose `[camera]` is the one that the page copies.
 #[test]
 fn the_viewers_own_camera_is_rendered() {
     let server = Scene::of(SMALL).served();
