@@ -1,15 +1,13 @@
 //! Decides which files a command may replace. The files that the command reads are protected, and so are the files in folders that jabuka
 //! manages.
 //!
-//! A file is identified by its device and inode, so symbolic links, hard links, `..`, and names that differ only in case are recognized as
+//! A file is identified by its device and inode (`system::FileId`), so symbolic links, hard links, `..`, and names that differ only in case are recognized as
 //! the same file.
 //!
 //! No command replaces a file that it reads, or a script or image in one of jabuka's folders.
 
 use std::ffi::OsStr;
 use std::fmt;
-use std::fs;
-use std::os::unix::fs::MetadataExt;
 use std::path::{Component, Path, PathBuf};
 
 use crate::diagnostic::{Code, Diagnostic, Report};
@@ -18,6 +16,7 @@ use crate::output;
 use crate::render;
 use crate::scene::Scene;
 use crate::scene::sdl::FileKind;
+use crate::system::{self, FileId};
 
 /// The reason, shown in errors, for protecting a file that the scene's SDL reads.
 const READ_BY_SDL: &str = "the SDL of the scene reads it";
@@ -27,7 +26,7 @@ const READ_BY_SDL: &str = "the SDL of the scene reads it";
 pub struct ProtectedFiles {
     inputs: Vec<Input>,
     /// The names and identities of the scene's assets, which are copied into the folders of scripts.
-    assets: Vec<(String, Option<Identity>)>,
+    assets: Vec<(String, Option<FileId>)>,
     /// The folders that the command fills with scripts and images. They need not exist yet.
     folders: Vec<PathBuf>,
     /// The files that the SDL of a trusted scene reads, by name. Relative names start from the folder of the scripts.
@@ -39,18 +38,8 @@ pub struct ProtectedFiles {
 struct Input {
     /// The path of the file, without links and `..`.
     path: PathBuf,
-    identity: Option<Identity>,
+    identity: Option<FileId>,
     use_of_it: &'static str,
-}
-
-/// The identity of a file: its device number and inode number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Identity(u64, u64);
-
-impl Identity {
-    fn of(path: &Path) -> Option<Identity> {
-        fs::metadata(path).ok().map(|metadata| Identity(metadata.dev(), metadata.ino()))
-    }
 }
 
 /// The error that a file must not be overwritten, with the reason.
@@ -81,7 +70,8 @@ impl ProtectedFiles {
     /// Protects all inputs of a scene: its file, included files, tables, meshes, heightfields, assets and templates, and the files that
     /// its SDL reads, as far as their names can be found in the SDL.
     pub fn of_scene(scene: &Scene) -> ProtectedFiles {
-        let asset = |asset: &crate::scene::Asset| Some((asset.name.clone(), Identity::of(asset.path()?)));
+        let asset =
+            |asset: &crate::scene::Asset| Some((asset.name.clone(), FileId::of_path(asset.path()?).ok()));
         let protected = ProtectedFiles {
             assets: scene.povray.assets.iter().filter_map(asset).collect(),
             named: scene.povray.reads.clone(),
@@ -102,7 +92,7 @@ impl ProtectedFiles {
     ) -> ProtectedFiles {
         let input = |file: P| {
             let path = file.as_ref();
-            Input { path: resolved(path), identity: Identity::of(path), use_of_it }
+            Input { path: resolved(path), identity: FileId::of_path(path).ok(), use_of_it }
         };
         self.inputs.extend(files.into_iter().map(input));
         self
@@ -116,7 +106,7 @@ impl ProtectedFiles {
         let resolved = resolved(folder);
         let is_replaced = |input: &&Input| {
             let Ok(name) = input.path.strip_prefix(&resolved) else { return false };
-            let copied_over = |(asset, identity): &(String, Option<Identity>)| {
+            let copied_over = |(asset, identity): &(String, Option<FileId>)| {
                 name == Path::new(ASSETS).join(asset) && *identity != input.identity
             };
             name.to_str().is_some_and(is_our_name) || self.assets.iter().any(copied_over)
@@ -137,7 +127,7 @@ impl ProtectedFiles {
     /// If the file at this path is protected.
     pub fn check(&self, path: &Path) -> Result<(), CannotOverwrite> {
         let cannot = |why: String| Err(CannotOverwrite { path: path.to_owned(), why });
-        let identity = Identity::of(path);
+        let identity = FileId::of_path(path).ok();
         if let Some(input) = self.inputs.iter().find(|input| identity.is_some() && input.identity == identity)
         {
             return cannot(input.use_of_it.to_owned());
@@ -179,7 +169,9 @@ fn resolved(path: &Path) -> PathBuf {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let parts: Vec<Component<'_>> = absolute.components().collect();
     for existing in (1..=parts.len()).rev() {
-        let Ok(mut found) = parts[..existing].iter().collect::<PathBuf>().canonicalize() else { continue };
+        let Ok(mut found) = system::canonicalize(&parts[..existing].iter().collect::<PathBuf>()) else {
+            continue;
+        };
         for part in &parts[existing..] {
             match part {
                 Component::ParentDir => drop(found.pop()),
@@ -193,6 +185,8 @@ fn resolved(path: &Path) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     fn said(result: Result<(), CannotOverwrite>) -> String {

@@ -14,7 +14,6 @@
 
 use std::fs::{self, File};
 use std::io::{self, Write as _};
-use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
@@ -23,7 +22,7 @@ use super::digest::CacheKey;
 use super::file::{At, PAGE_ENTRY_BYTES, damaged};
 use super::{CHECKPOINT_EXTENSION, PARTIAL_RUN_EXTENSION, SAVING_EXTENSION, files};
 use crate::simulate::Checkpoint;
-use crate::system;
+use crate::system::{self, FileId};
 
 /// The first bytes of every checkpoint.
 const FILE_SIGNATURE: &[u8; 8] = b"jabuka c";
@@ -112,7 +111,7 @@ pub(super) fn lock(part: &Path) -> Option<File> {
     let file = system::open_to_write(part, false).ok()?;
     file.try_lock().ok()?;
     // The previous owner of the lock may have removed or renamed the file after it was opened.
-    let is_same = fs::symlink_metadata(part).ok()?.ino() == file.metadata().ok()?.ino();
+    let is_same = FileId::of_name(part).ok()? == FileId::of(&file).ok()?;
     is_same.then_some(file)
 }
 

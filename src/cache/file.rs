@@ -10,7 +10,6 @@
 
 use std::fs::File;
 use std::io;
-use std::os::unix::fs::FileExt;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::SystemTime;
@@ -44,7 +43,7 @@ impl At {
     pub(super) fn read(&self, file: &File) -> io::Result<Arc<[u8]>> {
         let size = usize::try_from(self.bytes.min(MAX_PAGE_BYTES)).map_err(|_| damaged())?;
         let mut bytes = vec![0; size];
-        file.read_exact_at(&mut bytes, self.offset)?;
+        system::read_exact_at(file, &mut bytes, self.offset)?;
         let digest: [u8; 32] = Sha256::digest(&bytes).into();
         if digest == self.digest { Ok(bytes.into()) } else { Err(damaged()) }
     }
@@ -90,17 +89,17 @@ pub(super) fn open(path: &Path, key: CacheKey, counts: Counts) -> io::Result<Rec
     let file = system::open(path)?;
     let length = file.metadata()?.len();
     let mut head = [0; 40];
-    file.read_exact_at(&mut head, 0)?;
+    system::read_exact_at(&file, &mut head, 0)?;
     if head[..8] != FILE_SIGNATURE[..] || head[8..] != key {
         return Err(damaged());
     }
     let mut tail = [0; FOOTER_BYTES];
-    file.read_exact_at(&mut tail, length.checked_sub(FOOTER_BYTES as u64).ok_or_else(damaged)?)?;
+    system::read_exact_at(&file, &mut tail, length.checked_sub(FOOTER_BYTES as u64).ok_or_else(damaged)?)?;
     let number = |at: usize| u64::from_le_bytes(std::array::from_fn(|i| tail[at + i]));
     let (pages, begin) = (number(0), number(8));
     let size = length.checked_sub(begin).filter(|size| *size >= FOOTER_BYTES as u64).ok_or_else(damaged)?;
     let mut bytes = vec![0; usize::try_from(size).map_err(|_| damaged())?];
-    file.read_exact_at(&mut bytes, begin)?;
+    system::read_exact_at(&file, &mut bytes, begin)?;
     let (covered, digest) = bytes.split_at(bytes.len() - 32);
     let found: [u8; 32] = Sha256::digest(covered).into();
     if found[..] != *digest {

@@ -104,7 +104,8 @@ impl Cache {
         Cache { interval, ..self }
     }
 
-    /// Returns the user's cache. Its folder is `JABUKA_CACHE_DIR`, or `jabuka` below `XDG_CACHE_HOME` or `~/.cache`. Its limit is
+    /// Returns the user's cache. Its folder is `JABUKA_CACHE_DIR`, or `jabuka` below `XDG_CACHE_HOME` or `~/.cache` (on
+    /// Windows: `%LOCALAPPDATA%`). Its limit is
     /// `JABUKA_CACHE_SIZE` MB, or 2 GB. With `JABUKA_CACHE_ALL=1`, every run is kept, however short its simulation was.
     /// `JABUKA_CHECKPOINT_SECONDS` sets the interval between two checkpoints.
     ///
@@ -124,10 +125,8 @@ impl Cache {
             )?,
         };
         let variable = |name: &str| env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-        // The XDG specification demands that relative paths in this variable are ignored.
-        let of_xdg = variable("XDG_CACHE_HOME").filter(|path| path.is_absolute());
-        let caches = of_xdg.or_else(|| variable("HOME").map(|home| home.join(".cache")));
-        let folder = variable("JABUKA_CACHE_DIR").or_else(|| caches.map(|caches| caches.join("jabuka")));
+        let usual = || Some(system::cache_folder()?.join("jabuka"));
+        let folder = variable("JABUKA_CACHE_DIR").or_else(usual);
         Ok(match folder {
             Some(folder) if limit > 0 && variable("JABUKA_CACHE_ALL").is_some() => {
                 Cache::new(folder, limit).keeping_all().saving_every(interval)

@@ -2,7 +2,6 @@
 
 use std::fs::{self, File};
 use std::io;
-use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -97,11 +96,13 @@ impl Spill {
         let Some((path, pages)) = inner.settle(folder, *key)? else { return Ok(false) };
         let part = &mut inner.files[0];
         let end = file::end(&pages, index, part.end);
-        part.file.write_all_at(&end, part.end)?;
+        system::write_all_at(&part.file, &end, part.end)?;
         // An interrupted process may have written pages after its checkpoint. The file is longer then, and is cut off here.
         part.file.set_len(part.end + end.len() as u64)?;
         fs::rename(&path, folder.join(file::name(*key)))?;
         part.path = None;
+        // On Windows, a lock keeps other processes from reading.
+        let _: io::Result<()> = part.file.unlock();
         // If the checkpoint cannot be removed, the next process removes it.
         let _: io::Result<()> = fs::remove_file(checkpoint::beside(&path));
         Ok(true)
@@ -192,24 +193,28 @@ impl PageFile {
         let _: io::Result<()> = fs::remove_file(checkpoint::beside(&path));
         file.set_len(0)?;
         let begin = file::begin(key);
-        file.write_all_at(&begin, 0)?;
+        system::write_all_at(&file, &begin, 0)?;
         Ok(PageFile { file, path: Some(path), end: begin.len() as u64 })
     }
 
     /// Creates a nameless temporary file.
     fn unnamed() -> io::Result<PageFile> {
-        Ok(PageFile { file: tempfile::tempfile_in(temporary_folder())?, path: None, end: 0 })
+        Ok(PageFile { file: tempfile::tempfile_in(system::large_temporary_folder())?, path: None, end: 0 })
     }
 
     fn has_room(&self, bytes: usize) -> io::Result<()> {
-        let space = rustix::fs::fstatvfs(&self.file)?;
-        let is_full = space.f_bavail.saturating_mul(space.f_frsize) < MIN_FREE_DISK_BYTES + bytes as u64;
-        if is_full { Err(full()) } else { Ok(()) }
+        let folder = self
+            .path
+            .as_deref()
+            .and_then(Path::parent)
+            .map_or_else(system::large_temporary_folder, Path::to_owned);
+        let free = system::free_bytes(&self.file, &folder)?;
+        if free < MIN_FREE_DISK_BYTES + bytes as u64 { Err(full()) } else { Ok(()) }
     }
 
     fn append(&mut self, page: &[u8]) -> io::Result<At> {
         self.has_room(page.len())?;
-        self.file.write_all_at(page, self.end)?;
+        system::write_all_at(&self.file, page, self.end)?;
         let at = At { offset: self.end, bytes: page.len() as u64, digest: Sha256::digest(page).into() };
         self.end += at.bytes;
         Ok(at)
@@ -229,17 +234,8 @@ impl Drop for PageFile {
 fn full() -> io::Error {
     io::Error::new(
         io::ErrorKind::StorageFull,
-        format!("`{}` has no room for it", temporary_folder().display()),
+        format!("`{}` has no room for it", system::large_temporary_folder().display()),
     )
-}
-
-/// Returns the folder for large temporary files. On some systems, the usual temporary folder is in memory.
-fn temporary_folder() -> PathBuf {
-    let large = PathBuf::from("/var/tmp");
-    match std::env::var_os("TMPDIR") {
-        None if large.is_dir() => large,
-        _ => std::env::temp_dir(),
-    }
 }
 
 #[cfg(test)]

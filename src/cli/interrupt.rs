@@ -1,6 +1,5 @@
 //! Handles signals. Ctrl-C: tasks that can stop cleanly check a flag. Long simulations end at once and say how they can be continued.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::terminal;
@@ -29,12 +28,4 @@ pub(super) fn announced() {
     };
     // Without a handler, Ctrl-C ends the process without a message.
     let _ = ctrlc::set_handler(handler);
-}
-
-/// Keeps the signal SIGXFSZ from ending this process. The system sends it when a file would exceed the limit that `ulimit -f` sets. With a handler,
-/// writing fails with an error instead, and the error removes the temporary file. Programs that jabuka starts have no such handler.
-pub(super) fn survive_the_limit_of_files() {
-    let seen = Arc::new(AtomicBool::new(false));
-    // Without a handler, the signal ends the process as usual, and the next run removes its temporary files.
-    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, seen);
 }

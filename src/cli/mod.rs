@@ -3,7 +3,7 @@
 //! Only `terminal.rs` writes to standard output: a failed write makes the command fail at its end, except that a closed pipe is no error.
 //! `shell.rs` quotes the paths in suggested commands.
 //!
-//! The crate `ctrlc` handles Ctrl-C and other signals that end a program. `signal-hook` makes a file that exceeds `ulimit -f` an error,
+//! The crate `ctrlc` handles Ctrl-C and other signals that end a program. `system` makes a file that exceeds `ulimit -f` an error,
 //! instead of a signal that kills jabuka.
 
 mod average;
@@ -96,7 +96,7 @@ enum Failure {
 
 /// Runs the command that the arguments of this process name, and returns the exit code.
 pub(crate) fn main() -> ExitCode {
-    interrupt::survive_the_limit_of_files();
+    jabuka::system::survive_the_limit_of_files();
     ExitCode::from(terminal::ended(run()))
 }
 

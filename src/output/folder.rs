@@ -168,6 +168,7 @@ impl Drop for Folder {
         // A folder that was made for nothing is removed, with its lock.
         let is_for_nothing = self.is_new && !self.made.is_empty() && is_empty(&self.dir).unwrap_or(false);
         if is_for_nothing && self.dir.remove_file(LOCK_FILE).is_ok() {
+            self.dir.release();
             self.made.remove();
         }
     }

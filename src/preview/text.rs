@@ -13,7 +13,7 @@ use std::sync::PoisonError;
 use serde::{Deserialize, Serialize};
 
 use crate::page::{Failed, text_version};
-use crate::system::{Dir, FolderError};
+use crate::system::{self, Dir, FolderError};
 
 /// The file of the scene.
 pub(super) struct SceneFile {
@@ -106,7 +106,7 @@ impl SceneFile {
 
 /// Replaces the contents of a file, which are `old` before. If its path is a link, the file at its end is replaced.
 fn replace(path: &Path, old: &str, parts: &[&str]) -> Result<(), Failed> {
-    let file = fs::canonicalize(path)?;
+    let file = system::canonicalize(path)?;
     let permissions = fs::metadata(&file)?.permissions();
     if permissions.readonly() {
         return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is read-only").into());

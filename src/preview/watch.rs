@@ -7,22 +7,24 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
+use crate::system::FileId;
+
 /// The interval between two checks of the files.
 pub(super) const POLL_INTERVAL: Duration = Duration::from_millis(60);
 
-/// The size, inode and modification time of a file, which show whether it has changed. `None` if the file does not exist.
-type Mark = Option<(u64, u64, SystemTime)>;
+/// The size, identity and modification time of a file, which show whether it has changed. `None` if the file does not exist.
+type Mark = Option<(u64, FileId, SystemTime)>;
 
-/// The files of a scene, each with its size, inode and modification time when it was last read.
+/// The files of a scene, each with its size, identity and modification time when it was last read.
 pub(super) struct Watched(Vec<(PathBuf, Mark)>);
 
 impl Watched {
-    /// Records the current sizes, inodes and times of the files. It must be called before the files are read, so that no change is missed.
+    /// Records the current sizes, identities and times of the files. It must be called before the files are read, so that no change is missed.
     pub(super) fn new(files: &[PathBuf]) -> Watched {
         Watched(files.iter().map(|file| (file.clone(), mark(file))).collect())
     }
 
-    /// Adds files that are not watched yet, with their current sizes, inodes and times.
+    /// Adds files that are not watched yet, with their current sizes, identities and times.
     pub(super) fn add(&mut self, files: &[PathBuf]) {
         let new = files.iter().filter(|file| !self.0.iter().any(|(known, _)| known == *file));
         let new: Vec<_> = new.map(|file| (file.clone(), mark(file))).collect();
@@ -70,9 +72,8 @@ impl Watched {
 }
 
 fn mark(file: &Path) -> Mark {
-    use std::os::unix::fs::MetadataExt;
     let metadata = fs::metadata(file).ok()?;
-    Some((metadata.len(), metadata.ino(), metadata.modified().ok()?))
+    Some((metadata.len(), FileId::of_path(file).ok()?, metadata.modified().ok()?))
 }
 
 #[cfg(test)]

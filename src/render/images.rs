@@ -215,6 +215,7 @@ impl Images {
 
 impl Drop for WorkFolder {
     fn drop(&mut self) {
+        self.dir.release();
         // If the folder cannot be removed, the next process removes it.
         let _: Result<(), FolderError> = self.hidden.remove_all(&self.name);
     }

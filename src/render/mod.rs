@@ -53,13 +53,12 @@
 //!
 //! # Crates
 //!
-//! `rustix` ends a group of processes, and reads how much CPU time they took. `resize` makes images smaller, by a polynomial filter with the
+//! `resize` makes images smaller, by a polynomial filter with the
 //! same result everywhere. The letters of contact sheets and plots are those of `noto-sans-mono-bitmap`: 16 and 20 pixels high, ASCII.
 //! `which` finds POV-Ray and ffmpeg.
 
 pub mod batch;
 mod contact_sheet;
-mod cpu;
 mod error;
 mod exposure;
 mod fault;

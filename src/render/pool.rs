@@ -11,7 +11,8 @@ use std::time::{Duration, Instant};
 
 use super::images::Finished;
 use super::process::{Process, RenderTask, Setup, Step};
-use super::{Images, RenderError, cpu};
+use super::{Images, RenderError};
+use crate::system;
 
 /// POV-Ray's warning of the sheared camera of one of two eyes. This camera is meant to be so.
 const WARNING_OF_EYES: &str = "Camera vectors are not perpendicular";
@@ -264,7 +265,7 @@ impl<'a> Pool<'a> {
         &mut self,
         done: &mut dyn FnMut(RenderTask, TaskResult) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
-        let seconds = cpu::seconds_by_group();
+        let seconds = system::cpu_seconds_by_group();
         let limit = self.time_limit.unwrap_or_else(|| self.usual_limit());
         let mut index = 0;
         while index < self.running.len() {

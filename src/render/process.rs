@@ -5,16 +5,15 @@
 
 use std::fmt::Write as _;
 use std::io::{self, Read, Seek, SeekFrom, Write as _};
-use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 use super::images::{Finished, WorkFolder};
 use super::started::Started;
-use super::{PovRay, RenderError, cpu};
+use super::{PovRay, RenderError};
 use crate::sandbox::Needs;
-use crate::system::Dir;
+use crate::system::{self, Dir};
 
 /// A picture for POV-Ray to render: a frame, or one moment of a frame with motion blur.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -138,7 +137,7 @@ impl Process {
             let name = self.names.of(self.done);
             if is_whole(&self.folder.dir, &name) {
                 let task = task.clone();
-                let cpu = cpu::seconds(self.child.id());
+                let cpu = system::cpu_seconds(self.child.id());
                 let seconds = match cpu {
                     Some(cpu) if cpu - self.cpu_before > 0.01 => cpu - self.cpu_before,
                     _ => self.since.elapsed().as_secs_f64(),
@@ -207,7 +206,7 @@ impl Process {
             return Step::Broken { message: message.to_owned(), left: self.tasks.split_off(self.done) };
         }
         let last = console.lines().rev().find(|line| !line.trim().is_empty());
-        let why = match (exit.signal(), exit.code()) {
+        let why = match (system::signal(exit), exit.code()) {
             (Some(signal), _) => format!("it was killed by signal {signal}"),
             (None, Some(0)) => "it ended without an image".to_owned(),
             (None, code) => {

@@ -7,6 +7,7 @@ use crate::emit::frame_name;
 use crate::output::{Manifest, scripts};
 use crate::scene::Timeline;
 use crate::simulate::Selection;
+use crate::system;
 
 /// The scripts of all frames of a film, or of the selected ones.
 #[derive(Clone, Debug)]
@@ -57,7 +58,7 @@ impl Sequence {
             _ => RenderError::NoScripts(folder.to_owned()),
         })?;
         let found: Vec<_> = found.into_iter().filter(|(_, file)| file.starts_with("frame_")).collect();
-        let absolute = folder.canonicalize().map_err(RenderError::io(folder))?;
+        let absolute = system::canonicalize(folder).map_err(RenderError::io(folder))?;
         let manifest = Manifest::read(folder);
         if manifest.as_ref().is_some_and(|manifest| !manifest.is_complete()) {
             return Err(RenderError::Incomplete(folder.to_owned()));

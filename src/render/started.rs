@@ -2,33 +2,33 @@
 
 use std::io;
 use std::marker::PhantomData;
-use std::os::unix::process::CommandExt;
 use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus};
 
-use rustix::process::{Pid, Signal, kill_process_group};
+use crate::system::Family;
 
-/// A running child process. Dropping it kills the process, and all processes of its group.
+/// A running child process. Dropping it kills the process, and all processes of its family.
 ///
-/// The system also kills the child when the thread that started it ends. This works even if jabuka itself is killed. So this type is not
+/// On Linux, the system also kills the child when the thread that started it ends; on Windows, when jabuka ends. This works even if jabuka itself is killed. So this type is not
 /// `Send`: it stays on its thread, and no other thread can be left with a child that ends too early.
 pub(super) struct Started {
     child: Child,
+    family: Family,
     exit: Option<ExitStatus>,
     on_this_thread: PhantomData<*const ()>,
 }
 
 impl Started {
-    /// Starts a program in a process group of its own, so that an interrupt from the terminal does not reach it. An interrupted POV-Ray
+    /// Starts a program in a family of its own, so that an interrupt from the terminal does not reach it. An interrupted POV-Ray
     /// would leave state files behind, and an interrupted ffmpeg would cut the film short.
     ///
     /// # Errors
     /// If the program cannot be started.
     pub(super) fn new(command: &mut Command) -> io::Result<Started> {
-        let child = command.process_group(0).spawn()?;
-        Ok(Started { child, exit: None, on_this_thread: PhantomData })
+        let (child, family) = Family::start(command)?;
+        Ok(Started { child, family, exit: None, on_this_thread: PhantomData })
     }
 
-    /// Returns the process id, which is also the id of its process group.
+    /// Returns the process id, which is also the id of its process group on Unix.
     pub(super) fn id(&self) -> u32 {
         self.child.id()
     }
@@ -50,13 +50,10 @@ impl Started {
         Ok(self.exit)
     }
 
-    /// Kills all processes of the group, since the program may be a script that runs another program. Returns the exit status.
+    /// Kills all processes of the family, since the program may be a script that runs another program. Returns the exit status.
     pub(super) fn end(&mut self) -> Option<ExitStatus> {
         if self.exit.is_none() {
-            // Killing fails if the process has already ended, which does no harm.
-            let _ = kill_process_group(Pid::from_child(&self.child), Signal::KILL);
-            let _ = self.child.kill();
-            self.exit = self.child.wait().ok();
+            self.exit = self.family.end(&mut self.child);
         }
         self.exit
     }

@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::system;
+
 /// The launcher of the sandbox: a program that restricts its own rights and then becomes another program. It is jabuka itself, with its
 /// command `sandbox`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,12 +18,7 @@ impl Launcher {
 
     /// Creates a launcher from the running program, which must be `jabuka`. `None` if the system does not reveal its path.
     pub fn of_this_program() -> Option<Launcher> {
-        // This link stays valid even if the file is replaced by a newer version in the meantime.
-        let link = Path::new("/proc/self/exe");
-        if link.exists() {
-            return Some(Launcher(link.to_owned()));
-        }
-        std::env::current_exe().ok().map(Launcher)
+        system::this_program().map(Launcher)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Restricts a process by Linux's Landlock, and describes what the running kernel can enforce.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::thread;
 
 use landlock::{
@@ -8,17 +8,21 @@ use landlock::{
     RulesetCreatedAttr, RulesetError, Scope, make_bitflags,
 };
 
-use super::LaunchError;
+use super::{Launch, LaunchError, readable};
 
 /// The newest Landlock version that jabuka was tested with. An older kernel enforces the rules that it knows.
 const NEWEST_TESTED_ABI: ABI = ABI::V7;
 
-/// Restricts the current thread, and all programs that it starts, to reading and writing the given paths. Paths to read need not exist.
+/// Restricts the current thread, and all programs that it starts, to what `launch` needs to run the program at the path `program`. Paths to
+/// read need not exist.
 /// TCP connections, signals to other processes and abstract sockets are forbidden.
 ///
 /// # Errors
 /// If the kernel refuses the rules, or a path to write does not exist.
-pub(super) fn restrict(read: &[PathBuf], write: &[PathBuf]) -> Result<(), LaunchError> {
+pub(super) fn restrict(program: &Path, launch: &Launch) -> Result<(), LaunchError> {
+    let mut read = launch.read.clone();
+    read.extend(readable::by_all());
+    read.extend(readable::by(program, &launch.arguments));
     // Programs may not create devices, links or pipes, because jabuka reads the files that they write.
     let written = AccessFs::from_all(NEWEST_TESTED_ABI)
         & !make_bitflags!(AccessFs::{Execute | MakeChar | MakeBlock | MakeSock | MakeFifo | MakeSym | IoctlDev});
@@ -31,7 +35,8 @@ pub(super) fn restrict(read: &[PathBuf], write: &[PathBuf]) -> Result<(), Launch
         .map_err(refused)?;
     // A path that does not exist needs no rule.
     let reading = read.iter().filter_map(|path| beneath(path, AccessFs::from_read(NEWEST_TESTED_ABI)).ok());
-    let writing: Result<Vec<_>, LaunchError> = write
+    let writing: Result<Vec<_>, LaunchError> = launch
+        .write
         .iter()
         .map(|path| beneath(path, written).map_err(|why| LaunchError::Write(path.clone(), why)))
         .collect();

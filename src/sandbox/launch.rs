@@ -3,11 +3,11 @@
 use std::ffi::OsString;
 use std::fmt;
 use std::io;
-use std::os::unix::process::CommandExt;
 use std::path::PathBuf;
 use std::process::Command;
 
-use super::{environment, landlock, readable};
+use super::{environment, landlock};
+use crate::system::{self, TEMPORARY_FOLDER_VARIABLES};
 
 /// A program to start in the sandbox, with its rights.
 #[derive(Clone, Debug, Default)]
@@ -59,28 +59,21 @@ impl Launch {
         if let Some(error) = self.follow_parent() {
             return error;
         }
-        if let Some(nice) = self.nice {
-            // A failure is harmless: the niceness affects only the share of processor time.
-            let _ = rustix::process::nice(nice);
-        }
         let Ok(program) = which::which(&self.program) else {
             return LaunchError::NotFound(self.program.clone());
         };
-        let mut read = self.read.clone();
-        read.extend(readable::by_all());
-        read.extend(readable::by(&program, &self.arguments));
-        if let Err(error) = landlock::restrict(&read, &self.write) {
+        if let Err(error) = landlock::restrict(&program, self) {
             return error;
         }
         let mut command = Command::new(&program);
         command.args(&self.arguments);
         command.env_clear().envs(environment::passed_on());
         if let Some(folder) = self.write.iter().find(|path| path.is_dir()) {
-            for variable in ["TMPDIR", "POV_TEMP_DIR"] {
+            for variable in TEMPORARY_FOLDER_VARIABLES.iter().chain(&["POV_TEMP_DIR"]) {
                 command.env(variable, std::path::absolute(folder).unwrap_or_else(|_| folder.clone()));
             }
         }
-        let error = command.exec();
+        let error = system::become_program(&mut command, self.nice);
         LaunchError::Start(program, error)
     }
 

@@ -34,6 +34,7 @@ mod environment;
 #[cfg_attr(not(target_os = "linux"), path = "no_landlock.rs")]
 mod landlock;
 mod launch;
+#[cfg(target_os = "linux")]
 mod readable;
 
 pub(crate) use confinement::Needs;

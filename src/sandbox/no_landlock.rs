@@ -1,14 +1,14 @@
 //! The sandbox on systems other than Linux: nothing is enforced.
 
-use std::path::PathBuf;
+use std::path::Path;
 
-use super::LaunchError;
+use super::{Launch, LaunchError};
 
 /// Restricts nothing, since this system has no Landlock.
 ///
 /// # Errors
 /// None.
-pub(super) fn restrict(_read: &[PathBuf], _write: &[PathBuf]) -> Result<(), LaunchError> {
+pub(super) fn restrict(_program: &Path, _launch: &Launch) -> Result<(), LaunchError> {
     Ok(())
 }
 

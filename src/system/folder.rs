@@ -5,25 +5,33 @@
 //! another program puts a link in its place. In the place of a file, a folder may hold a pipe, which blocks whoever opens it, or a device.
 //! Only regular files are opened.
 //!
-//! `unix` and `by_path` hold the operations on a single name, for systems with and without open folders.
+//! `unix` and `windows` hold the operations on a single name. `by_path` has them for systems without open folders, such as a browser.
 
-#[cfg(not(all(unix, feature = "render")))]
+#[cfg(not(all(any(unix, windows), feature = "render")))]
 mod by_path;
-#[cfg(not(all(unix, feature = "render")))]
+#[cfg(not(all(any(unix, windows), feature = "render")))]
 use by_path as native;
 #[cfg(all(unix, feature = "render"))]
 mod unix;
 #[cfg(all(unix, feature = "render"))]
 use unix as native;
+#[cfg(all(windows, feature = "render"))]
+mod windows;
+#[cfg(all(windows, feature = "render"))]
+use windows as native;
 
 use std::ffi::{OsStr, OsString};
 use std::fmt;
 use std::fs::File;
+#[cfg(feature = "render")]
+use std::fs::TryLockError;
 use std::io::{self, BufWriter, Read as _};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use native::Handle;
+
+use super::names;
 
 /// An open folder. Names of files are relative to it, and may have several parts: `assets/wood.png`.
 #[derive(Clone, Debug)]
@@ -48,6 +56,7 @@ impl Made {
         for (folder, name) in self.0.iter().rev() {
             // A folder that has got files meanwhile stays.
             let _: io::Result<()> = native::remove_folder(&folder.handle, name);
+            folder.release();
         }
     }
 }
@@ -147,18 +156,25 @@ impl Dir {
     }
 
     fn walk(path: &Path, mut make: Option<&mut Made>, follow_last: bool) -> Result<Dir, FolderError> {
-        let parts: Vec<Component<'_>> = path.components().collect();
+        // On Windows, a path can begin at the current drive, or in the current folder of a drive.
+        let is_elsewhere = !path.is_absolute()
+            && matches!(path.components().next(), Some(Component::Prefix(_) | Component::RootDir));
+        let whole = if is_elsewhere { std::path::absolute(path) } else { Ok(path.to_owned()) };
+        let whole = whole.map_err(|error| FolderError::Io(path.to_owned(), error))?;
+        let parts: Vec<Component<'_>> = whole.components().collect();
+        let root =
+            parts.iter().take_while(|part| matches!(part, Component::Prefix(_) | Component::RootDir)).count();
         // The number of parts that are opened at once, and may be links.
-        let mut trusted = match path.is_absolute() {
+        let mut trusted = match whole.is_absolute() {
             true if follow_last => parts.len(),
-            true => parts.len().saturating_sub(1).max(1),
+            true => parts.len().saturating_sub(1).max(root),
             false => 0,
         };
         let handle = loop {
             let start = if trusted == 0 { PathBuf::from(".") } else { parts[..trusted].iter().collect() };
             match native::open_path(&start) {
                 Ok(handle) => break handle,
-                Err(error) if make.is_some() && error.kind() == io::ErrorKind::NotFound && trusted > 1 => {
+                Err(error) if make.is_some() && error.kind() == io::ErrorKind::NotFound && trusted > root => {
                     trusted -= 1;
                 }
                 Err(error) if error.kind() == io::ErrorKind::NotADirectory => {
@@ -179,6 +195,7 @@ impl Dir {
 
     /// Opens the subfolder of this name.
     fn step(&self, name: &OsStr, make: Option<&mut Made>) -> Result<Dir, FolderError> {
+        names::check(name).map_err(|error| FolderError::Io(self.path.join(name), error))?;
         let mut opened = native::open_folder(&self.handle, name);
         if let Some(made) = make
             && opened.as_ref().is_err_and(|error| error.kind() == io::ErrorKind::NotFound)
@@ -217,7 +234,8 @@ impl Dir {
             let Component::Normal(part) = part else { break };
             let folder: &Dir = dir.as_ref().unwrap_or(self);
             if parts.peek().is_none() {
-                return act(folder, part).map_err(|error| folder.explained(part, error, false));
+                let done = names::check(part).and_then(|()| act(folder, part));
+                return done.map_err(|error| folder.explained(part, error, false));
             }
             dir = Some(folder.step(part, None)?);
         }
@@ -237,6 +255,21 @@ impl Dir {
     pub fn path_for_child(&self) -> PathBuf {
         native::path_of(&self.handle)
             .unwrap_or_else(|| std::path::absolute(&self.path).unwrap_or_else(|_| self.path.clone()))
+    }
+
+    /// Lets this folder be removed while this value exists. Windows would refuse it otherwise. Other values for the same folder count, too.
+    pub(crate) fn release(&self) {
+        native::release(&self.handle);
+    }
+
+    /// Locks an open file of this folder, which another program will write, as long as the returned value exists. `None` if the lock belongs to
+    /// the file itself.
+    ///
+    /// # Errors
+    /// If another process has locked the file.
+    #[cfg(feature = "render")]
+    pub(crate) fn lock_for_child(&self, name: &OsStr, file: &File) -> Result<Option<File>, TryLockError> {
+        native::lock_for_child(&self.handle, name, file)
     }
 
     /// Returns a text that tells the folder apart from all others, as long as it exists.
@@ -487,6 +520,7 @@ impl Dir {
                 for inner in folder.names()? {
                     folder.remove_all(inner)?;
                 }
+                folder.release();
                 self.at(name, |dir, name| native::remove_folder(&dir.handle, name))
             }
             Some(_) => self.remove_file(name).map(drop),

@@ -1,7 +1,7 @@
 //! Remembers which folders jabuka has made on this machine, for this user.
 //!
 //! What a folder says about itself, such as its manifest, can come from anyone. So jabuka keeps a note of each folder that it makes or finds
-//! empty, outside of that folder: in `jabuka/made-here` below `XDG_STATE_HOME` or `~/.local/state`. The name of the note is the digest of
+//! empty, outside of that folder: in `jabuka/made-here` below `XDG_STATE_HOME` or `~/.local/state`; on Windows, below `%LOCALAPPDATA%`. The name of the note is the digest of
 //! the folder's identity: its inode and the time when it was made. A folder that was unpacked, copied or downloaded has another identity.
 //! What has changed since in a folder with a note was changed here, by the user.
 
@@ -53,9 +53,8 @@ fn place() -> Option<PathBuf> {
     if cfg!(test) {
         return Some(env::temp_dir().join("jabuka-tests/made-here"));
     }
-    let variable = |name: &str| env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
-    let state = variable("XDG_STATE_HOME").or_else(|| Some(variable("HOME")?.join(".local/state")));
-    Some(state?.join("jabuka/made-here"))
+    let state = super::state_folder().filter(|path| path.is_absolute());
+    Some(state?.join("jabuka").join("made-here"))
 }
 
 /// Returns the name of a folder's note.

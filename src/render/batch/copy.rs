@@ -31,7 +31,7 @@ pub(super) fn complete(scripts: &Path) -> Result<Header, OutputError> {
 pub fn copy_scripts(from: &Path, to: &Folder) -> Result<(), OutputError> {
     let io_error = |error| OutputError::Io(from.to_owned(), error);
     complete(from)?;
-    let same = |a: &Path, b: &Path| Ok::<_, io::Error>(a.canonicalize()? == b.canonicalize()?);
+    let same = |a: &Path, b: &Path| Ok::<_, io::Error>(system::canonicalize(a)? == system::canonicalize(b)?);
     if same(from, to.path()).map_err(io_error)? {
         return Ok(());
     }

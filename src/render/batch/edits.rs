@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 use super::Edits;
 use super::texts::Text;
 use crate::output::{self, Folder, OutputError};
-use crate::system::{Dir, Kind};
+use crate::system::{self, Dir, Kind};
 
 /// The name of the file that marks a folder as one of jabuka's job folders. It contains the digests of the files as jabuka wrote them.
 const DIGESTS_FILE: &str = ".jabuka-job.json";
@@ -113,18 +113,9 @@ pub(super) fn write(folder: &Folder, texts: &[Text]) -> Result<Edits, OutputErro
 
 fn put(folder: &Folder, name: &str, text: &Text) -> Result<(), OutputError> {
     folder.write(name, text.text.as_bytes())?;
-    #[cfg(unix)]
     if text.runs {
-        use std::os::unix::fs::PermissionsExt;
         let file = folder.dir().open_file(name)?;
-        let permit = || {
-            let mut permissions = file.metadata()?.permissions();
-            // Everyone who may read the file may also execute it.
-            let mode = permissions.mode();
-            permissions.set_mode(mode | (mode & 0o444) >> 2);
-            file.set_permissions(permissions)
-        };
-        permit().map_err(|error| OutputError::Io(folder.path().join(name), error))?;
+        system::make_executable(&file).map_err(|error| OutputError::Io(folder.path().join(name), error))?;
     }
     Ok(())
 }

@@ -3,7 +3,6 @@
 use std::collections::VecDeque;
 use std::ffi::OsString;
 use std::io::{BufRead, BufReader, Read, Write};
-use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{ChildStdin, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -14,6 +13,7 @@ use super::super::started::Started;
 use super::target::Target;
 use super::{FilmError, Format};
 use crate::sandbox::{Confinement, Needs};
+use crate::system;
 
 /// An installed ffmpeg that has the encoder for the format of a film.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -153,7 +153,7 @@ impl Ffmpeg {
 }
 
 fn how(exit: Option<ExitStatus>) -> String {
-    match exit.map(|exit| (exit.code(), exit.signal())) {
+    match exit.map(|exit| (exit.code(), system::signal(exit))) {
         Some((Some(code), _)) => format!("ended with code {code}"),
         Some((None, Some(signal))) => format!("was killed by signal {signal}"),
         Some((None, None)) => "ended".to_owned(),

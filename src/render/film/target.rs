@@ -16,6 +16,8 @@ pub(in crate::render) struct Target {
     /// The temporary file. It is locked, so that two processes do not write the same file. The lock ends with the process, however the
     /// process ends.
     file: File,
+    /// The lock, where it is a file of its own.
+    _lock: Option<File>,
     finished: bool,
 }
 
@@ -35,15 +37,18 @@ impl Target {
         let mut temporary = OsString::from(".jabuka-");
         temporary.push(&name);
         temporary.push(".tmp");
-        let is_locked = |file: &File| matches!(file.try_lock(), Err(TryLockError::WouldBlock));
-        if folder.open_file(&temporary).is_ok_and(|file| is_locked(&file)) {
-            return Err(FilmError::Locked(path.to_owned()));
+        let lock = |file: &File| match folder.lock_for_child(&temporary, file) {
+            Err(TryLockError::WouldBlock) => Err(FilmError::Locked(path.to_owned())),
+            // Some disks have no locks.
+            Err(TryLockError::Error(_)) => Ok(None),
+            Ok(lock) => Ok(lock),
+        };
+        if let Ok(left) = folder.open_file(&temporary) {
+            lock(&left)?;
         }
         let file = folder.create(&temporary)?;
-        if is_locked(&file) {
-            return Err(FilmError::Locked(path.to_owned()));
-        }
-        Ok(Target { path: path.to_owned(), folder, name, temporary, file, finished: false })
+        let lock = lock(&file)?;
+        Ok(Target { path: path.to_owned(), folder, name, temporary, file, _lock: lock, finished: false })
     }
 
     /// Returns the final path of the file.

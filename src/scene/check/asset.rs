@@ -6,8 +6,9 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::grammar::scene::povray;
-use crate::scene::source::{Node, file};
+use crate::scene::source::Node;
 use crate::scene::{Asset, AssetSource};
+use crate::system;
 
 /// A file that a scene names.
 #[derive(PartialEq, Eq)]
@@ -79,11 +80,11 @@ pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<F
         _ => error(Code::MissingAsset, format!("cannot read `{name}`: {e}")),
     };
     // Resolve symbolic links: a link inside the folder may point outside it.
-    let path = folder.join(name).canonicalize().map_err(missing)?;
-    if !path.starts_with(folder.canonicalize().map_err(missing)?) && !trust {
+    let path = system::canonicalize(&folder.join(name)).map_err(missing)?;
+    if !path.starts_with(system::canonicalize(folder).map_err(missing)?) && !trust {
         return Err(outside());
     }
-    if let Some(what) = file::irregular(path.metadata().map_err(missing)?.file_type()) {
+    if let Some(what) = system::irregular(path.metadata().map_err(missing)?.file_type()) {
         let message = format!("`{name}` is {what}, and only regular files are read");
         return Err(error(Code::MissingAsset, message));
     }

@@ -12,6 +12,7 @@ use crate::scene::grammar::scene::{povray, scene};
 use crate::scene::sdl::{INCLUDES, Token, Tokens, WRITING_INCLUDES};
 use crate::scene::source::{Node, file};
 use crate::scene::{Include, PovRay, SdlPiece};
+use crate::system;
 
 /// The maximum size of an include file, in bytes. Every script contains the whole file.
 const MAX_INCLUDE_BYTES: u64 = 1 << 20;
@@ -84,9 +85,10 @@ fn include_text(
     let error = |code, message: String| Diagnostic::error(code, message).at(node.span, "");
     let cannot_read = |e: std::io::Error| error(Code::MissingInclude, format!("cannot read `{name}`: {e}"));
     // Resolve symbolic links: a link inside the folder may point outside it.
-    let real = path.canonicalize().map_err(cannot_read)?;
-    let inside =
-        folder.and_then(|folder| folder.canonicalize().ok()).is_some_and(|folder| real.starts_with(folder));
+    let real = system::canonicalize(path).map_err(cannot_read)?;
+    let inside = folder
+        .and_then(|folder| system::canonicalize(folder).ok())
+        .is_some_and(|folder| real.starts_with(folder));
     if !inside && !trust {
         return Err(error(Code::UntrustedPath, format!("`{name}` leads out of the scene's folder"))
             .help("if you know this scene and trust it, say `--trust`"));

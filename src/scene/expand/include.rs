@@ -10,6 +10,7 @@ use super::merge::{is_replaced, merge};
 use crate::diagnostic::{Code, Diagnostic, Sources, Span};
 use crate::scene::grammar::{Kind, SCENE, TableSpec};
 use crate::scene::source::{self, Entry, Node, Table, Value};
+use crate::system;
 
 /// The maximum number of files that include each other in a chain.
 const MAX_DEPTH: usize = 50;
@@ -25,9 +26,9 @@ pub(in crate::scene) fn include(
 ) -> Vec<String> {
     let folder = path.map(folder_of);
     let mut includer = Includer {
-        scene: folder.as_ref().and_then(|folder| folder.canonicalize().ok()),
+        scene: folder.as_ref().and_then(|folder| system::canonicalize(folder).ok()),
         trust,
-        way: path.and_then(|path| path.canonicalize().ok()).into_iter().collect(),
+        way: path.and_then(|path| system::canonicalize(path).ok()).into_iter().collect(),
         done: HashSet::new(),
         texts: Vec::new(),
         sources,
@@ -91,7 +92,7 @@ impl Includer<'_> {
         };
         let path = folder.join(name);
         self.sources.note_file(&path);
-        let real = path.canonicalize().map_err(|error| match error.kind() {
+        let real = system::canonicalize(&path).map_err(|error| match error.kind() {
             std::io::ErrorKind::NotFound => {
                 let error = cannot(format!("there is no file `{name}`"));
                 match name.ends_with(".inc") {

@@ -1,8 +1,10 @@
 //! Opens the files of a scene. Accepts only regular files up to a maximum size.
 
-use std::fs::{File, FileType, Metadata, OpenOptions};
+use std::fs::{File, Metadata};
 use std::io::{self, Read};
 use std::path::Path;
+
+use crate::system;
 
 /// Opens a regular file of at most `most` bytes. Other files are refused before reading: a pipe would block until another process writes
 /// to it, and a device may have no end.
@@ -12,15 +14,8 @@ use std::path::Path;
 pub(in crate::scene) fn open(path: &Path, most: u64) -> io::Result<File> {
     // Opening a device may have side effects, so its metadata are checked first.
     accept(&std::fs::metadata(path)?, most)?;
-    let mut options = OpenOptions::new();
-    options.read(true);
     // Another file may have replaced the checked file meanwhile. If the new file is a pipe, opening it must not block.
-    #[cfg(all(unix, feature = "render"))]
-    {
-        use std::os::unix::fs::OpenOptionsExt;
-        options.custom_flags(rustix::fs::OFlags::NONBLOCK.bits().cast_signed());
-    }
-    let file = options.open(path)?;
+    let file = system::open_without_waiting(path)?;
     accept(&file.metadata()?, most)?;
     Ok(file)
 }
@@ -47,30 +42,8 @@ pub(in crate::scene) fn read_text(path: &Path, most: u64) -> io::Result<String> 
     })
 }
 
-/// Describes the type of a file in words, such as "a named pipe". `None` for a regular file.
-pub(in crate::scene) fn irregular(kind: FileType) -> Option<&'static str> {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::FileTypeExt;
-        if kind.is_fifo() {
-            return Some("a named pipe");
-        }
-        if kind.is_socket() {
-            return Some("a socket");
-        }
-        if kind.is_char_device() || kind.is_block_device() {
-            return Some("a device");
-        }
-    }
-    match () {
-        () if kind.is_file() => None,
-        () if kind.is_dir() => Some("a folder"),
-        () => Some("no regular file"),
-    }
-}
-
 fn accept(metadata: &Metadata, most: u64) -> io::Result<()> {
-    if let Some(what) = irregular(metadata.file_type()) {
+    if let Some(what) = system::irregular(metadata.file_type()) {
         return Err(io::Error::other(format!("it is {what}, and only regular files are read")));
     }
     if metadata.len() > most { Err(too_large(most)) } else { Ok(()) }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::file;
 use crate::diagnostic::{Code, Diagnostic, Report, Sources, Span, nearest};
+use crate::system;
 
 /// The maximum size of a scene file, in bytes. For comparison, a scene of ten thousand bodies has about one megabyte.
 pub const MAX_BYTES: u64 = 64 << 20;
@@ -27,7 +28,7 @@ pub fn load(path: &Path) -> Result<String, Report> {
         Report::of_error(Code::CannotRead, format!("cannot read the scene `{shown}`: {reason}{meant}"))
     };
     let metadata = std::fs::metadata(path).map_err(|error| cannot_read(&error))?;
-    if let Some(what) = file::irregular(metadata.file_type()) {
+    if let Some(what) = system::irregular(metadata.file_type()) {
         let message = format!("`{shown}` is {what}, not a scene file");
         return Err(Report::of_error(Code::NotAFile, message));
     }

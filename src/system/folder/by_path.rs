@@ -1,6 +1,6 @@
 //! The operations of a folder on systems without open folders. Each takes the path of a folder and a single name in it.
 //!
-//! A link is recognized and not followed. But unlike on Unix, a folder that another program replaces by a link in the very moment between
+//! A link is recognized and not followed. But unlike on Unix and Windows, a folder that another program replaces by a link in the very moment between
 //! this check and the operation is not noticed.
 
 use std::ffi::{OsStr, OsString};
@@ -24,6 +24,9 @@ pub(super) fn open_folder(folder: &Handle, name: &OsStr) -> io::Result<Handle> {
         _ => Err(io::ErrorKind::NotADirectory.into()),
     }
 }
+
+/// Does nothing: there is only a path.
+pub(super) fn release(_: &Handle) {}
 
 pub(super) fn make_folder(folder: &Handle, name: &OsStr) -> io::Result<()> {
     fs::create_dir(folder.join(name))

@@ -1,7 +1,7 @@
 //! The operations of a folder on Unix. Each takes an open folder and a single name in it, and follows no link.
 
 use std::ffi::{OsStr, OsString};
-use std::fs::File;
+use std::fs::{File, TryLockError};
 use std::io;
 use std::os::fd::AsFd;
 use std::os::unix::ffi::OsStrExt as _;
@@ -32,6 +32,9 @@ pub(super) fn open_folder(folder: &Handle, name: &OsStr) -> io::Result<Handle> {
     Ok(fs::openat(folder, name, flags, Mode::empty())?)
 }
 
+/// Does nothing: an open folder can be removed.
+pub(super) fn release(_: &Handle) {}
+
 pub(super) fn make_folder(folder: &Handle, name: &OsStr) -> io::Result<()> {
     Ok(fs::mkdirat(folder, name, Mode::from_raw_mode(0o777))?)
 }
@@ -46,6 +49,11 @@ pub(super) fn open_file(folder: &Handle, name: &OsStr, access: Access) -> io::Re
     };
     let flags = access | OFlags::NOFOLLOW | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::CLOEXEC;
     Ok(fs::openat(folder, name, flags, Mode::from_raw_mode(0o666))?.into())
+}
+
+/// Locks a file that another program will write. The lock belongs to the file, and hinders nobody who does not ask for it.
+pub(super) fn lock_for_child(_: &Handle, _: &OsStr, file: &File) -> Result<Option<File>, TryLockError> {
+    file.try_lock().map(|()| None)
 }
 
 /// Makes a symbolic link.

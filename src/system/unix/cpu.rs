@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::fs;
 
 /// Returns the CPU time that each process group has used so far, s, by the group's id. `None` where the system does not report CPU times.
-pub(super) fn seconds_by_group() -> Option<HashMap<i32, f64>> {
+pub(crate) fn cpu_seconds_by_group() -> Option<HashMap<i32, f64>> {
     let mut groups = HashMap::new();
     for entry in fs::read_dir("/proc").ok()?.flatten() {
         let is_process =
@@ -22,7 +22,7 @@ pub(super) fn seconds_by_group() -> Option<HashMap<i32, f64>> {
 }
 
 /// Returns the CPU time that a process has used so far, s. `None` where the system does not report it.
-pub(super) fn seconds(process: u32) -> Option<f64> {
+pub(crate) fn cpu_seconds(process: u32) -> Option<f64> {
     group_and_seconds(&fs::read_to_string(format!("/proc/{process}/stat")).ok()?).map(|(_, seconds)| seconds)
 }
 
