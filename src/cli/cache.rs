@@ -9,7 +9,7 @@ use super::{Failure, terminal};
 /// Show which simulated runs are kept between commands, or remove them
 ///
 /// If the bodies of a scene move as in an earlier command, the scene is not simulated again: the run of that command was kept in
-/// JABUKA_CACHE_DIR, or by default in the folder `jabuka` of XDG_CACHE_HOME or ~/.cache. Runs that take less than 0.2 s are not kept,
+/// JABUKA_CACHE_DIR, or by default in the folder `jabuka` of XDG_CACHE_HOME or ~/.cache (on Windows: of LOCALAPPDATA). Runs that take less than 0.2 s are not kept,
 /// unless JABUKA_CACHE_ALL is 1. If the kept runs exceed JABUKA_CACHE_SIZE megabytes (default: 2000; 0 keeps nothing), the least recently
 /// used runs are removed.
 ///

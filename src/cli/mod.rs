@@ -96,7 +96,7 @@ enum Failure {
 
 /// Runs the command that the arguments of this process name, and returns the exit code.
 pub(crate) fn main() -> ExitCode {
-    jabuka::system::survive_the_limit_of_files();
+    jabuka::system::prepare_process();
     ExitCode::from(terminal::ended(run()))
 }
 

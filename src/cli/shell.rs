@@ -3,10 +3,28 @@
 use std::path::Path;
 
 use jabuka::diagnostic::is_invisible;
+use jabuka::system::{SHELL, Shell};
 
-/// Quotes a path as one word of a command for bash or zsh. The shell never reads the word as an option, and invisible characters are
-/// escaped.
+/// Quotes a path as one word of a command for the shells of this system. The shell never reads the word as an option.
 pub(super) fn path(path: &Path) -> String {
+    match SHELL {
+        Shell::Unix => for_unix(path),
+        Shell::Windows => for_windows(&path.to_string_lossy()),
+    }
+}
+
+/// Quotes a path for cmd and PowerShell. `"` cannot be in a path there.
+fn for_windows(path: &str) -> String {
+    let prefix = if path.starts_with('-') { ".\\" } else { "" };
+    let plain = |c: char| c.is_alphanumeric() || "\\/._-+:".contains(c);
+    match !path.is_empty() && path.chars().all(plain) {
+        true => format!("{prefix}{path}"),
+        false => format!("\"{prefix}{}\"", path.replace('"', "\\\"")),
+    }
+}
+
+/// Quotes a path for bash and zsh. Invisible characters are escaped.
+fn for_unix(path: &Path) -> String {
     let bytes = path.as_os_str().as_encoded_bytes();
     let prefix = if bytes.starts_with(b"-") { "./" } else { "" };
     let plain = |c: char| c.is_alphanumeric() || "/._-+,:@%".contains(c);
@@ -19,7 +37,7 @@ pub(super) fn path(path: &Path) -> String {
     }
 }
 
-/// Quotes a text as one word of a command for bash or zsh.
+/// Quotes a text as one word of a command for the shells of this system.
 pub(super) fn word(text: &str) -> String {
     path(Path::new(text))
 }
@@ -66,12 +84,26 @@ mod tests {
             b"#",
             b"{a,b}",
         ] {
-            let word = path(Path::new(OsStr::from_bytes(bytes)));
+            let word = for_unix(Path::new(OsStr::from_bytes(bytes)));
             assert!(!word.chars().any(is_invisible), "{word}");
             let output = Command::new("bash").arg("-c").arg(format!("printf '%s' {word}")).output().unwrap();
             let read = output.stdout.strip_prefix(b"./").filter(|_| bytes.starts_with(b"-"));
             assert_eq!(read.unwrap_or(&output.stdout), bytes, "{word}");
         }
-        assert_eq!(path(Path::new("out/bällchen-job")), "out/bällchen-job");
+        assert_eq!(for_unix(Path::new("out/bällchen-job")), "out/bällchen-job");
+    }
+
+    #[test]
+    fn words_for_windows_are_in_double_quotes_where_needed() {
+        for (path, word) in [
+            ("C:\\out\\bällchen", "C:\\out\\bällchen"),
+            ("a b", "\"a b\""),
+            ("it's", "\"it's\""),
+            ("", "\"\""),
+            ("-x", ".\\-x"),
+            ("-x y", "\".\\-x y\""),
+        ] {
+            assert_eq!(for_windows(path), word);
+        }
     }
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use jabuka::render::{Build, PovRay};
 use jabuka::sandbox;
 
 /// Returns true if the command line contains `--verbose` or `-v`. clap stops parsing at `--version`, so the arguments are searched here.
@@ -19,25 +20,35 @@ pub(super) fn report() -> String {
     format!(
         "jabuka   {}\nPOV-Ray  {}\nffmpeg   {}\nsandbox  {}\n",
         env!("CARGO_PKG_VERSION"),
-        found("povray", "--version", "POV-Ray "),
-        found("ffmpeg", "-version", "ffmpeg version "),
+        povray(),
+        ffmpeg(),
         sandbox::enforced()
     )
 }
 
-/// Returns the version and the path of a program. `option` makes the program print its version, which follows the words `before`.
-fn found(name: &str, option: &str, before: &str) -> String {
-    let Ok(path) = which::which(name) else { return format!("not found: no `{name}` on the PATH") };
-    match ask(&path, option, before) {
-        Some(version) => format!("{version} ({})", path.display()),
-        None => format!("unknown: `{} {option}` does not tell its version", path.display()),
+/// Describes the installed POV-Ray: its version, its path, and its build.
+fn povray() -> String {
+    let Ok(path) = PovRay::locate(None) else { return "not found: no `povray` on the PATH".to_owned() };
+    match (PovRay::version_of(&path), Build::of(&path)) {
+        (Some(version), Build::Console) => format!("{version} ({})", path.display()),
+        (Some(version), build) => format!("{version} ({}, {})", path.display(), build.name()),
+        (None, _) => format!("unknown: `{} --version` does not tell its version", path.display()),
     }
 }
 
-fn ask(path: &Path, option: &str, before: &str) -> Option<String> {
-    let output = Command::new(path).arg(option).stdin(Stdio::null()).output().ok()?;
-    let said = [output.stdout, output.stderr].concat();
-    let said = String::from_utf8_lossy(&said);
-    let version = said.lines().find_map(|line| line.strip_prefix(before)?.split_whitespace().next())?;
+/// Describes the installed ffmpeg: its version and its path.
+fn ffmpeg() -> String {
+    let Ok(path) = which::which("ffmpeg") else { return "not found: no `ffmpeg` on the PATH".to_owned() };
+    match ffmpeg_version(&path) {
+        Some(version) => format!("{version} ({})", path.display()),
+        None => format!("unknown: `{} -version` does not tell its version", path.display()),
+    }
+}
+
+fn ffmpeg_version(path: &Path) -> Option<String> {
+    let output = Command::new(path).arg("-version").stdin(Stdio::null()).output().ok()?;
+    let said = String::from_utf8_lossy(&output.stdout);
+    let version =
+        said.lines().find_map(|line| line.strip_prefix("ffmpeg version ")?.split_whitespace().next())?;
     Some(version.to_owned())
 }

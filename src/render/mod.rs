@@ -58,6 +58,7 @@
 //! `which` finds POV-Ray and ffmpeg.
 
 pub mod batch;
+mod build;
 mod contact_sheet;
 mod error;
 mod exposure;
@@ -81,6 +82,7 @@ mod started;
 mod status;
 mod undated;
 
+pub use build::Build;
 pub use contact_sheet::{ContactSheet, Shot};
 pub use error::RenderError;
 pub use fault::Fault;

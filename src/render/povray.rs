@@ -6,9 +6,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant, UNIX_EPOCH};
 
+use super::build::{self, Build};
 use super::started::Started;
 use super::{Images, RenderError};
 use crate::sandbox::{Confinement, Needs};
+use crate::system::{self, POVRAY_NAMES};
 
 /// An installed POV-Ray of a known version.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,7 +30,7 @@ const VERSION_CACHE_FILE: &str = "povray";
 const VERSION_TIMEOUT: Duration = Duration::from_secs(20);
 
 impl PovRay {
-    /// Finds POV-Ray: at the path `given`, or else as `povray` in the `PATH`. Asking it for its version takes 0.2 s, so the answer is
+    /// Finds POV-Ray: at the path `given`, or else by [`PovRay::locate`]. Asking it for its version takes 0.2 s, so the answer is
     /// cached among the images. The cache is valid as long as the program has the same path, size and modification time.
     ///
     /// The confinement applies to every run of POV-Ray. A POV-Ray with libraries in an unusual folder cannot start with limited read
@@ -50,7 +52,7 @@ impl PovRay {
             return Ok(PovRay { path, version, confinement, unlimited: None });
         }
         let said = ask(&path, &confinement)?;
-        if let Some(version) = version(&said) {
+        if let Some(version) = known_version(&said) {
             // If the answer cannot be cached, the next command asks POV-Ray again.
             let _ = images
                 .hidden()
@@ -63,21 +65,42 @@ impl PovRay {
         let first: String = first.chars().filter(|c| !c.is_control()).take(200).collect();
         let reading_all = confinement.reading_all();
         let said = if confinement.limits_reading() { ask(&path, &reading_all)? } else { String::new() };
-        let Some(version) = version(&said) else {
+        let Some(version) = known_version(&said) else {
             return Err(RenderError::NotPovray(path, first.chars().take(80).collect()));
         };
         let version = version.to_owned();
         Ok(PovRay { path, version, confinement: reading_all, unlimited: Some(first) })
     }
 
-    /// Finds the path of POV-Ray without running it, which is quick.
+    /// Finds the path of POV-Ray without running it, which is quick: at the path `given`, or else as `povray` in the `PATH`. On Windows, finds
+    /// `pvengine64` or `pvengine`, too, also where the installer puts it.
     ///
     /// # Errors
     /// If no such program exists.
     pub fn locate(given: Option<&Path>) -> Result<PathBuf, RenderError> {
-        let wanted = given.unwrap_or(Path::new("povray"));
-        let path = which::which(wanted).map_err(|_| RenderError::NoPovray(wanted.to_owned()))?;
-        path.canonicalize().map_err(RenderError::io(&path))
+        let path = match given {
+            Some(given) => which::which(given).ok(),
+            None => {
+                let folders = system::povray_folders();
+                let installed =
+                    folders.iter().flat_map(|folder| POVRAY_NAMES.iter().map(|name| folder.join(name)));
+                let mut wanted = POVRAY_NAMES.iter().map(PathBuf::from).chain(installed);
+                wanted.find_map(|name| which::which(name).ok())
+            }
+        };
+        let missing = || RenderError::NoPovray(given.unwrap_or(Path::new("povray")).to_owned());
+        let path = path.ok_or_else(missing)?;
+        system::canonicalize(&path).map_err(RenderError::io(&path))
+    }
+
+    /// Returns the version of the POV-Ray at a path. `None` if it does not tell.
+    pub fn version_of(path: &Path) -> Option<String> {
+        version(&ask(path, &Confinement::default()).ok()?).map(str::to_owned)
+    }
+
+    /// Returns the build of this POV-Ray.
+    pub fn build(&self) -> Build {
+        Build::of(&self.path)
     }
 
     /// Returns the path of the program.
@@ -129,8 +152,12 @@ fn mark(path: &Path, confinement: &Confinement) -> std::io::Result<String> {
     Ok(format!("{} {} {}{limited}", path.display(), metadata.len(), changed.as_nanos()))
 }
 
-/// Runs the program with `--version`, and returns its output.
+/// Runs the program with `--version`, and returns its output. The version of POV-Ray for Windows is read from its file.
 fn ask(path: &Path, confinement: &Confinement) -> Result<String, RenderError> {
+    if Build::of(path) == Build::Windows {
+        let version = build::version_in(path).map_err(RenderError::io(path))?;
+        return Ok(version.map_or_else(String::new, |version| format!("POV-Ray {version}")));
+    }
     let mut command = confinement.command(path, Needs::default());
     command.arg("--version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
     let mut child = Started::new(&mut command).map_err(RenderError::io(path))?;
@@ -150,9 +177,14 @@ fn ask(path: &Path, confinement: &Confinement) -> Result<String, RenderError> {
     Ok(String::from_utf8_lossy(&said).into_owned())
 }
 
-/// Returns the version number in POV-Ray's output. `None` unless it is a 3.7 or 3.8.
+/// Returns the version number in POV-Ray's output.
 fn version(said: &str) -> Option<&str> {
-    let word = said.lines().find_map(|line| line.strip_prefix("POV-Ray ")?.split_whitespace().next())?;
+    said.lines().find_map(|line| line.strip_prefix("POV-Ray ")?.split_whitespace().next())
+}
+
+/// Returns the version number in POV-Ray's output. `None` unless it is a 3.7 or 3.8.
+fn known_version(said: &str) -> Option<&str> {
+    let word = version(said)?;
     let known = ["3.7", "3.8"].iter().any(|known| {
         word.strip_prefix(known).is_some_and(|rest| !rest.starts_with(|c: char| c.is_ascii_digit()))
     });
@@ -166,10 +198,10 @@ mod tests {
     #[test]
     fn the_version_is_the_word_after_the_name() {
         let said = "povray: cannot open the user configuration file\nPOV-Ray 3.7.0.10.unofficial\n\nmore";
-        assert_eq!(version(said), Some("3.7.0.10.unofficial"));
-        assert_eq!(version("POV-Ray 3.8.0-beta.2"), Some("3.8.0-beta.2"));
+        assert_eq!(known_version(said), Some("3.7.0.10.unofficial"));
+        assert_eq!(known_version("POV-Ray 3.8.0-beta.2"), Some("3.8.0-beta.2"));
         for other in ["", "POV-Ray 3.6.1", "POV-Ray 3.70", "ffmpeg 3.7", "POV-Ray "] {
-            assert_eq!(version(other), None, "{other:?}");
+            assert_eq!(known_version(other), None, "{other:?}");
         }
     }
 }

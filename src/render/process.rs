@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use super::images::{Finished, WorkFolder};
 use super::started::Started;
-use super::{PovRay, RenderError};
+use super::{Build, PovRay, RenderError};
 use crate::sandbox::Needs;
 use crate::system::{self, Dir};
 
@@ -48,6 +48,7 @@ pub(super) struct Setup<'a> {
 /// A running POV-Ray process.
 pub(super) struct Process {
     child: Started,
+    build: Build,
     folder: WorkFolder,
     tasks: Vec<RenderTask>,
     names: Names,
@@ -108,22 +109,43 @@ impl Process {
             _ => (Names::Plain, format!("+KFI0 +KFF99999 +SF0 +EF{}", tasks.len() - 1)),
         };
         let needs = Needs { read: &[setup.scripts], write: &[Path::new(".")], low_priority };
+        let has_moments = tasks.iter().any(|task| task.moment.is_some());
+        let mut options: Vec<String> = Vec::new();
+        options.extend(["-D", "-V", "-GA", "+GWwarnings.txt", "+GFerrors.txt"].map(str::to_owned));
+        options.extend(["+Lscripts", "+Lscripts/assets"].map(str::to_owned));
+        options.push(format!("+WT{}", setup.threads));
+        options.extend(setup.options.iter().cloned());
+        options.push(if has_moments { "+FN16" } else { "+FN8" }.to_owned());
+        options.extend(range.split(' ').map(str::to_owned));
+        options.extend(["+Irun.pov", "+Oimage.png"].map(str::to_owned));
         let mut command = setup.povray.command(needs);
+        match setup.povray.build() {
+            Build::Console => command.args(options),
+            Build::Windows => {
+                let written = dir.create_new("run.ini")?.write_all((options.join("\n") + "\n").as_bytes());
+                written.map_err(RenderError::io(dir.path()))?;
+                command.args(["/EXIT", "/RENDER", "run.ini"])
+            }
+        };
         command
             .current_dir(dir.path_for_child())
-            .args(["-D", "-V", "-GA", "+GWwarnings.txt", "+GFerrors.txt"])
-            .args(["+Lscripts", "+Lscripts/assets"])
-            .arg(format!("+WT{}", setup.threads))
-            .args(setup.options)
-            .arg(if tasks.iter().any(|task| task.moment.is_some()) { "+FN16" } else { "+FN8" })
-            .args(range.split(' '))
-            .args(["+Irun.pov", "+Oimage.png"])
             .stdin(Stdio::null())
             .stdout(Stdio::null())
             .stderr(dir.create_new("console.txt")?);
         let child = Started::new(&mut command).map_err(RenderError::io(dir.path()))?;
         let now = Instant::now();
-        Ok(Process { child, folder, tasks, names, done: 0, since: now, cpu_before: 0.0, alive: (0.0, now) })
+        let build = setup.povray.build();
+        Ok(Process {
+            child,
+            build,
+            folder,
+            tasks,
+            names,
+            done: 0,
+            since: now,
+            cpu_before: 0.0,
+            alive: (0.0, now),
+        })
     }
 
     /// Polls the process for a new image or its end.
@@ -194,7 +216,9 @@ impl Process {
     /// Finds out why the process ended before all its images were complete.
     fn fate(&mut self, exit: ExitStatus) -> Step {
         let message = said(&self.folder.dir, "errors.txt");
-        if exit.code() == Some(1) && !message.is_empty() {
+        // The meaning of the exit codes of POV-Ray for Windows is not documented.
+        let is_error = exit.code() == Some(1) || self.build == Build::Windows;
+        if is_error && !message.is_empty() {
             self.child.end();
             return Step::Broken { message, left: self.tasks.split_off(self.done) };
         }

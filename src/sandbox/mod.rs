@@ -24,7 +24,8 @@
 //! - `jabuka --version -v` shows what the kernel enforces. Before Linux 6.2, the kernel cannot forbid truncating a file; before 6.7, it
 //!   cannot forbid connections; before 5.13, and on other systems, nothing is enforced. `render-chunk` uses the sandbox on nodes that have
 //!   jabuka; the first line of its log says so.
-//! - The launcher asks the system for a signal when its parent ends. The system sends it when the parent's thread ends, so the process that
+//! - On Windows, the launcher cannot become the program. It starts the program with the same variables, in one job with itself, and waits.
+//! - On Linux, the launcher asks the system for a signal when its parent ends. The system sends it when the parent's thread ends, so the process that
 //!   starts it stays on its thread.
 //!
 //! The crate `landlock` sets the rules, without `unsafe` of our own.

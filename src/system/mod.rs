@@ -33,11 +33,11 @@ pub use folder::{About, Dir, FolderError, Kind, Made, open, read, read_to_string
 pub(crate) use folder::{create, open_to_write};
 #[cfg(feature = "render")]
 pub(crate) use native::{
-    Family, FileId, TEMPORARY_FOLDER_VARIABLES, become_program, cache_folder, canonicalize, cpu_seconds,
-    cpu_seconds_by_group, free_bytes, is_variable, large_temporary_folder, make_executable, read_exact_at,
-    signal, state_folder, this_program, write_all_at,
+    Family, FileId, POVRAY_NAMES, TEMPORARY_FOLDER_VARIABLES, become_program, cache_folder, canonicalize,
+    cpu_seconds, cpu_seconds_by_group, free_bytes, is_variable, large_temporary_folder, make_executable,
+    povray_folders, read_exact_at, signal, state_folder, this_program, write_all_at,
 };
-pub(crate) use regular::{irregular, open_without_waiting};
+pub(crate) use regular::{irregular, metadata, open_without_waiting};
 
 /// Returns the absolute path without links and `..`.
 #[cfg(not(feature = "render"))]
@@ -45,9 +45,21 @@ pub(crate) fn canonicalize(path: &std::path::Path) -> std::io::Result<std::path:
     path.canonicalize()
 }
 
-/// Makes a file that exceeds the limit of `ulimit -f` an error of writing, where the system would end the process. Programs that jabuka starts
-/// are not changed.
+/// A family of shells, which quote words in the same way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shell {
+    /// bash, zsh and others.
+    Unix,
+    /// cmd and PowerShell.
+    Windows,
+}
+
+/// The shells of this system.
+pub const SHELL: Shell = if cfg!(windows) { Shell::Windows } else { Shell::Unix };
+
+/// Prepares this process for a command. On Unix, a file that exceeds the limit of `ulimit -f` becomes an error of writing, and does not end the
+/// process. On Windows, older consoles understand colors. Programs that jabuka starts are not changed.
 #[cfg(feature = "cli")]
-pub fn survive_the_limit_of_files() {
-    native::survive_the_limit_of_files();
+pub fn prepare_process() {
+    native::prepare_process();
 }

@@ -1,10 +1,19 @@
 //! Regular files: what a file is if it is none, and how to open it without harm.
 
-use std::fs::{File, FileType, OpenOptions};
+use std::fs::{File, FileType, Metadata, OpenOptions};
 use std::io;
 use std::path::Path;
 
 use super::names;
+
+/// Returns what the system says about the file at a path. Links are followed.
+///
+/// # Errors
+/// If there is no such file. On Windows, also if its name is that of a device, or is read as the name of another file.
+pub(crate) fn metadata(path: &Path) -> io::Result<Metadata> {
+    names::check(path.file_name().unwrap_or_default())?;
+    path.metadata()
+}
 
 /// Opens a file for reading. If the file is a pipe, this does not wait for another program.
 ///

@@ -18,6 +18,14 @@ pub(crate) use cpu::{cpu_seconds, cpu_seconds_by_group};
 /// The environment variables that name the folder of temporary files.
 pub(crate) const TEMPORARY_FOLDER_VARIABLES: &[&str] = &["TMPDIR"];
 
+/// The names of the program POV-Ray, in the order in which they are looked for.
+pub(crate) const POVRAY_NAMES: &[&str] = &["povray"];
+
+/// Returns the folders outside of the `PATH` in which POV-Ray may be installed.
+pub(crate) fn povray_folders() -> Vec<PathBuf> {
+    Vec::new()
+}
+
 /// Returns true if an environment variable has this name.
 pub(crate) fn is_variable(variable: &OsStr, name: &str) -> bool {
     variable == name
@@ -137,10 +145,10 @@ pub(crate) fn become_program(command: &mut Command, nice: Option<i32>) -> io::Er
     command.exec()
 }
 
-/// Keeps the signal SIGXFSZ from ending this process. The system sends it when a file would exceed the limit that `ulimit -f` sets. With a handler,
+/// Prepares this process for a command: keeps the signal SIGXFSZ from ending it. The system sends it when a file would exceed the limit that `ulimit -f` sets. With a handler,
 /// writing fails with an error instead, and the error removes the temporary file. Programs that jabuka starts have no such handler.
 #[cfg(feature = "cli")]
-pub(crate) fn survive_the_limit_of_files() {
+pub(crate) fn prepare_process() {
     let seen = std::sync::Arc::default();
     // Without a handler, the signal ends the process as usual, and the next run removes its temporary files.
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, seen);

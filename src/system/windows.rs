@@ -5,7 +5,7 @@
 use std::collections::HashMap;
 use std::env;
 use std::ffi::OsStr;
-use std::fs::{File, OpenOptions};
+use std::fs::{self, File, OpenOptions};
 use std::io;
 use std::os::windows::fs::{FileExt as _, OpenOptionsExt as _};
 use std::os::windows::io::AsRawHandle as _;
@@ -16,6 +16,8 @@ use std::thread;
 use std::time::Duration;
 
 use win32job::{ExtendedLimitInfo, Job, JobError, PriorityClass};
+#[cfg(feature = "cli")]
+use winapi_util::console::Console;
 
 /// The environment variables that name the folder of temporary files.
 pub(crate) const TEMPORARY_FOLDER_VARIABLES: &[&str] = &["TEMP", "TMP"];
@@ -26,6 +28,19 @@ pub(super) const FILE_FLAG_OPEN_REPARSE_POINT: u32 = 0x0020_0000;
 
 /// Keeps Ctrl-C from a new process. See the process creation flags of Windows.
 const CREATE_NEW_PROCESS_GROUP: u32 = 0x0000_0200;
+
+/// The names of the program POV-Ray, in the order in which they are looked for: a build for consoles, then POV-Ray for Windows.
+pub(crate) const POVRAY_NAMES: &[&str] = &["povray", "pvengine64", "pvengine"];
+
+/// Returns the folders outside of the `PATH` in which POV-Ray may be installed, the newest version first.
+pub(crate) fn povray_folders() -> Vec<PathBuf> {
+    let Some(programs) = env::var_os("ProgramFiles") else { return Vec::new() };
+    let versions = fs::read_dir(Path::new(&programs).join("POV-Ray")).into_iter().flatten().flatten();
+    let mut folders: Vec<PathBuf> = versions.map(|version| version.path().join("bin")).collect();
+    folders.sort_unstable();
+    folders.reverse();
+    folders
+}
 
 /// Returns true if an environment variable has this name, in capitals or not.
 pub(crate) fn is_variable(variable: &OsStr, name: &str) -> bool {
@@ -201,6 +216,11 @@ pub(crate) fn become_program(command: &mut Command, nice: Option<i32>) -> io::Er
     }
 }
 
-/// Does nothing: Windows has no limit of files that ends a process.
+/// Prepares this process for a command: lets older consoles understand the sequences for colors and for moving up.
 #[cfg(feature = "cli")]
-pub(crate) fn survive_the_limit_of_files() {}
+pub(crate) fn prepare_process() {
+    for mut console in [Console::stdout(), Console::stderr()].into_iter().flatten() {
+        // A console that does not know these sequences shows them.
+        let _ = console.set_virtual_terminal_processing(true);
+    }
+}

@@ -13,7 +13,7 @@ use crate::system;
 /// If the file cannot be opened, is not a regular file, or is too large. The error's message is a clause that names the reason.
 pub(in crate::scene) fn open(path: &Path, most: u64) -> io::Result<File> {
     // Opening a device may have side effects, so its metadata are checked first.
-    accept(&std::fs::metadata(path)?, most)?;
+    accept(&system::metadata(path)?, most)?;
     // Another file may have replaced the checked file meanwhile. If the new file is a pipe, opening it must not block.
     let file = system::open_without_waiting(path)?;
     accept(&file.metadata()?, most)?;

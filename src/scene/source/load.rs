@@ -27,7 +27,7 @@ pub fn load(path: &Path) -> Result<String, Report> {
         let reason = reason(error);
         Report::of_error(Code::CannotRead, format!("cannot read the scene `{shown}`: {reason}{meant}"))
     };
-    let metadata = std::fs::metadata(path).map_err(|error| cannot_read(&error))?;
+    let metadata = system::metadata(path).map_err(|error| cannot_read(&error))?;
     if let Some(what) = system::irregular(metadata.file_type()) {
         let message = format!("`{shown}` is {what}, not a scene file");
         return Err(Report::of_error(Code::NotAFile, message));

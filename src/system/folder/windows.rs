@@ -119,11 +119,15 @@ pub(super) fn link(target: &Path, folder: &Handle, name: &OsStr) -> io::Result<(
     mirror(target, &path)
 }
 
-/// Makes a folder with the files of another one: hard links, or copies on another drive. Links are left out.
+/// Makes a folder with the files of another one: hard links, or copies on another drive. Links, and the files that jabuka keeps for itself, are
+/// left out.
 fn mirror(from: &Path, to: &Path) -> io::Result<()> {
     fs::create_dir(to)?;
     for entry in fs::read_dir(from)? {
         let entry = entry?;
+        if entry.file_name().to_string_lossy().starts_with(".jabuka") {
+            continue;
+        }
         let (source, target) = (entry.path(), to.join(entry.file_name()));
         match entry.file_type()? {
             kind if kind.is_file() => {
