@@ -17,7 +17,7 @@
 //! errors and warnings of all stages, and [`explain`] explains their codes. [`catalog`] lists the names that scenes can use, and
 //! [`starter`] writes an example scene. For programs other than POV-Ray, [`surface`] has the triangles of shapes and simple materials, and
 //! [`export`] writes tables and models. [`page`] makes what a page in the browser shows of a scene, and [`preview`] serves that page while
-//! the user edits the scene. [`sandbox`] confines the programs that jabuka starts.
+//! the user edits the scene. [`sandbox`] confines the programs that jabuka starts. [`cli`] is the command line.
 //!
 //! # Features
 //!
@@ -26,7 +26,7 @@
 //!
 //! | feature | what it adds |
 //! | --- | --- |
-//! | `cli` | the program `jabuka` |
+//! | `cli` | the program `jabuka`, and the module `cli` |
 //! | `fonts` | the fonts of texts; without it, call [`font::give`] before you read a scene |
 //! | `render` | the modules `output`, `render`, `cache`, `overwrite` and `sandbox`: files, POV-Ray, ffmpeg |
 //! | `preview` | the module `preview` |
@@ -68,6 +68,8 @@
 #[cfg(feature = "render")]
 pub mod cache;
 pub mod catalog;
+#[cfg(feature = "cli")]
+pub mod cli;
 mod decimal;
 pub mod diagnostic;
 

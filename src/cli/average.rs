@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use jabuka::diagnostic::visible;
-use jabuka::overwrite::ProtectedFiles;
-use jabuka::render::linear_light;
+use crate::diagnostic::visible;
+use crate::overwrite::ProtectedFiles;
+use crate::render::linear_light;
 
 use super::{Failure, terminal};
 

@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::diagnostic::visible_path;
+use crate::output::{self, OutputError};
+use crate::overwrite::ProtectedFiles;
+use crate::render::Film;
+use crate::render::batch::{self, JobFolder, Requirements, SCRIPTS_FOLDER, Settings};
+use crate::simulate::Selection;
 use clap::ValueEnum;
-use jabuka::diagnostic::visible_path;
-use jabuka::output::{self, OutputError};
-use jabuka::overwrite::ProtectedFiles;
-use jabuka::render::Film;
-use jabuka::render::batch::{self, JobFolder, Requirements, SCRIPTS_FOLDER, Settings};
-use jabuka::simulate::Selection;
 
 use super::picture_arguments::PictureArguments;
 use super::progress::Progress;
@@ -226,7 +226,7 @@ fn make(
         engine.name()
     );
     said.push_str(&format!("images    {done} of {all} are there\n"));
-    if let Some(speed) = settings.shown.and_then(jabuka::render::film::Pace::in_words) {
+    if let Some(speed) = settings.shown.and_then(crate::render::film::Pace::in_words) {
         said.push_str(&format!("film      {} frames a second, {speed}\n", settings.pace.rate));
     }
     for name in &edits.kept {

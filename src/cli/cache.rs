@@ -1,7 +1,7 @@
 //! The command `jabuka cache`: shows or removes the simulated runs that are kept between commands.
 
-use jabuka::cache::{Cache, Holding};
-use jabuka::diagnostic::{Code, Report, visible_path};
+use crate::cache::{Cache, Holding};
+use crate::diagnostic::{Code, Report, visible_path};
 
 use super::summary::bytes;
 use super::{Failure, terminal};

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::cache::Cache;
+use crate::diagnostic::{Report, visible_path};
+use crate::scene::Options;
+use crate::simulate::Moments;
+use crate::{Run, Scene};
 use clap::ValueEnum;
-use jabuka::cache::Cache;
-use jabuka::diagnostic::{Report, visible_path};
-use jabuka::scene::Options;
-use jabuka::simulate::Moments;
-use jabuka::{Run, Scene};
 
 use super::progress::Progress;
 use super::run_arguments::simulated;

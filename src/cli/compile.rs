@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use jabuka::Run;
-use jabuka::diagnostic::visible_path;
-use jabuka::output::{self, Folder};
-use jabuka::overwrite::ProtectedFiles;
-use jabuka::simulate::Selection;
+use crate::Run;
+use crate::diagnostic::visible_path;
+use crate::output::{self, Folder};
+use crate::overwrite::ProtectedFiles;
+use crate::simulate::Selection;
 
 use super::progress::Progress;
 use super::run_arguments::{self, RunArguments, seen};

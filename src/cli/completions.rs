@@ -1,12 +1,12 @@
 //! The command `jabuka completions`: prints a script with which a shell completes jabuka's commands and options.
 
+use crate::catalog::CATEGORIES;
+use crate::explain::explanations;
+use crate::scene::grammar::all_keys;
+use crate::starter::Example;
 use clap::CommandFactory;
 use clap::builder::PossibleValuesParser;
 use clap_complete::Shell;
-use jabuka::catalog::CATEGORIES;
-use jabuka::explain::explanations;
-use jabuka::scene::grammar::all_keys;
-use jabuka::starter::Example;
 
 use super::{Failure, terminal};
 

@@ -1,8 +1,8 @@
 //! The command `jabuka explain`: explains the code of an error or a warning, a key of the scene language, or a name that scenes can use.
 
-use jabuka::catalog::CATEGORIES;
-use jabuka::explain::{Explanation, explanations};
-use jabuka::scene::grammar::{SCENE, find_keys};
+use crate::catalog::CATEGORIES;
+use crate::explain::{Explanation, explanations};
+use crate::scene::grammar::{SCENE, find_keys};
 
 use super::{Failure, terminal};
 

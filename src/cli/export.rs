@@ -4,13 +4,13 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
-use jabuka::diagnostic::{Code, Diagnostic, Report, visible_path};
-use jabuka::export::{Contents, ExportError, FORMATS, FileKind, Format, PlotDrawing, PlotFile};
-use jabuka::motion_warnings;
-use jabuka::output::OutputError;
-use jabuka::overwrite::ProtectedFiles;
-use jabuka::simulate::{Moments, Selection};
-use jabuka::system::Dir;
+use crate::diagnostic::{Code, Diagnostic, Report, visible_path};
+use crate::export::{Contents, ExportError, FORMATS, FileKind, Format, PlotDrawing, PlotFile};
+use crate::motion_warnings;
+use crate::output::OutputError;
+use crate::overwrite::ProtectedFiles;
+use crate::simulate::{Moments, Selection};
+use crate::system::Dir;
 
 use super::progress::Progress;
 use super::run_arguments;

@@ -1,7 +1,7 @@
 //! The command `jabuka list`: lists the available integrators, materials, shapes and so on.
 
-use jabuka::catalog::{CATEGORIES, Category};
-use jabuka::diagnostic::nearest;
+use crate::catalog::{CATEGORIES, Category};
+use crate::diagnostic::nearest;
 
 use super::{Failure, terminal};
 

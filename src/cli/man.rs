@@ -1,7 +1,7 @@
 //! The command `jabuka man`: prints a manual page.
 
+use crate::diagnostic::nearest;
 use clap::CommandFactory;
-use jabuka::diagnostic::nearest;
 
 use super::{Failure, terminal};
 

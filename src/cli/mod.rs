@@ -40,11 +40,12 @@ mod version;
 mod video_arguments;
 
 use std::borrow::Cow;
+use std::ffi::OsString;
 use std::process::ExitCode;
 
+use crate::diagnostic::visible;
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
-use jabuka::diagnostic::visible;
 
 /// Compiles a physics scene written in TOML into POV-Ray scripts, one per frame.
 #[derive(Parser)]
@@ -95,16 +96,23 @@ enum Failure {
 }
 
 /// Runs the command that the arguments of this process name, and returns the exit code.
-pub(crate) fn main() -> ExitCode {
-    jabuka::system::prepare_process();
-    ExitCode::from(terminal::ended(run()))
+pub fn main() -> ExitCode {
+    ExitCode::from(run(std::env::args_os()))
 }
 
-/// Parses the arguments of this process, and runs the command.
-fn run() -> u8 {
-    let arguments = match Arguments::try_parse() {
+/// Runs the command that these arguments name, and returns the exit code. The first argument is the name of the program. A process runs one
+/// command: the handlers of signals stay, and so does the error of a lost standard output.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    crate::system::prepare_process();
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    terminal::ended(parse_and_run(&arguments))
+}
+
+/// Parses the arguments, and runs the command.
+fn parse_and_run(arguments: &[OsString]) -> u8 {
+    let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
-        Err(error) if error.kind() == ErrorKind::DisplayVersion && version::is_verbose() => {
+        Err(error) if error.kind() == ErrorKind::DisplayVersion && version::is_verbose(arguments) => {
             terminal::result(&version::report());
             return 0;
         }

@@ -3,8 +3,8 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use jabuka::diagnostic::{nearest, visible, visible_path};
-use jabuka::starter::{Example, write_scene, write_starter};
+use crate::diagnostic::{nearest, visible, visible_path};
+use crate::starter::{Example, write_scene, write_starter};
 
 use super::{Failure, shell, terminal};
 

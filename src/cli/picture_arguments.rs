@@ -1,8 +1,8 @@
 //! The command-line arguments for the size and quality of images.
 
+use crate::render::{self, Quality};
+use crate::scene::Override;
 use clap::ValueEnum;
-use jabuka::render::{self, Quality};
-use jabuka::scene::Override;
 
 /// The size and quality of the images to render.
 #[derive(clap::Args)]

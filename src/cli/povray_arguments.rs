@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use jabuka::diagnostic::is_invisible;
-use jabuka::render::{Images, Job, PovRay, RenderError, Sequence};
-use jabuka::sandbox::Confinement;
+use crate::diagnostic::is_invisible;
+use crate::render::{Images, Job, PovRay, RenderError, Sequence};
+use crate::sandbox::Confinement;
 
 use super::picture_arguments::PictureArguments;
 use super::terminal;

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
-use jabuka::preview::Preview;
-use jabuka::sandbox::Launcher;
+use crate::preview::Preview;
+use crate::sandbox::Launcher;
 
 use super::scene_arguments::SceneArguments;
 use super::{Failure, interrupt, terminal};

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use jabuka::diagnostic::visible_path;
-use jabuka::overwrite::{CannotOverwrite, ProtectedFiles};
-use jabuka::render::{ContactSheet, Ffmpeg, Film, FilmError, Images, Sequence, Shot};
-use jabuka::sandbox::{Confinement, Launcher};
+use crate::diagnostic::visible_path;
+use crate::overwrite::{CannotOverwrite, ProtectedFiles};
+use crate::render::{ContactSheet, Ffmpeg, Film, FilmError, Images, Sequence, Shot};
+use crate::sandbox::{Confinement, Launcher};
 
 use super::progress::Progress;
 use super::{Failure, render, terminal};
@@ -76,7 +76,7 @@ impl Products {
     ) -> Result<(), Failure> {
         let scripts = sequence.scripts();
         if let Some(sheet) = &self.sheet {
-            let shot = |script: &jabuka::render::Script| Shot {
+            let shot = |script: &crate::render::Script| Shot {
                 image: images.image(&script.name),
                 frame: script.frame,
                 time: sequence.time(script.frame),
@@ -105,7 +105,7 @@ impl Products {
                 pace.of_frames(sequence.timeline.frame_rate, scripts.iter().map(|script| script.frame));
             let speed = shown
                 .and_then(|pace| pace.at(&sequence.timeline.speed))
-                .and_then(jabuka::render::film::Pace::in_words)
+                .and_then(crate::render::film::Pace::in_words)
                 .map_or(String::new(), |words| format!(", {words}"));
             terminal::result(&format!("film      {}, {seconds:.2} s{speed}\n", visible_path(film.path())));
         }

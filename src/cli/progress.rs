@@ -5,11 +5,11 @@ use std::io::IsTerminal;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::{Duration, Instant};
 
+use crate::Scene;
+use crate::output::OutputError;
+use crate::physics::PairCounter;
+use crate::simulate::Workload;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-use jabuka::Scene;
-use jabuka::output::OutputError;
-use jabuka::physics::PairCounter;
-use jabuka::simulate::Workload;
 
 use super::{Failure, terminal};
 
@@ -186,7 +186,7 @@ mod tests {
             shared.bar.position()
         };
         assert_eq!(position(), 0);
-        let mut frames = jabuka::simulate::Frames::watched(&scene, progress.pair_counter());
+        let mut frames = crate::simulate::Frames::watched(&scene, progress.pair_counter());
         frames.next();
         let first = position();
         assert!(first > 0, "a frame is computed, and no step is done");

@@ -4,15 +4,15 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use jabuka::Scene;
-use jabuka::cache::Cache;
-use jabuka::diagnostic::{Report, visible_path};
-use jabuka::output::{self, Folder, OutputError};
-use jabuka::overwrite::ProtectedFiles;
-use jabuka::render::{Event, Images, Job, Outcome, RenderError, Sequence};
-use jabuka::scene::View;
-use jabuka::simulate::Selection;
-use jabuka::system::Dir;
+use crate::Scene;
+use crate::cache::Cache;
+use crate::diagnostic::{Report, visible_path};
+use crate::output::{self, Folder, OutputError};
+use crate::overwrite::ProtectedFiles;
+use crate::render::{Event, Images, Job, Outcome, RenderError, Sequence};
+use crate::scene::View;
+use crate::simulate::Selection;
+use crate::system::Dir;
 
 use super::picture_arguments::PictureArguments;
 use super::povray_arguments::PovRayArguments;

@@ -4,14 +4,14 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
+use crate::Scene;
+use crate::diagnostic::visible_path;
+use crate::export::ExportError;
+use crate::output::OutputError;
+use crate::overwrite::ProtectedFiles;
+use crate::report::plot::{Picture, png, svg};
+use crate::report::{Assessment, DEFAULT_ACCURACY, Phase, assess};
 use clap::ValueEnum;
-use jabuka::Scene;
-use jabuka::diagnostic::visible_path;
-use jabuka::export::ExportError;
-use jabuka::output::OutputError;
-use jabuka::overwrite::ProtectedFiles;
-use jabuka::report::plot::{Picture, png, svg};
-use jabuka::report::{Assessment, DEFAULT_ACCURACY, Phase, assess};
 
 use super::export::whole;
 use super::progress::Progress;

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use jabuka::cache::Cache;
-use jabuka::output::OutputError;
-use jabuka::sandbox::Confinement;
-use jabuka::scene::{Override, View};
-use jabuka::simulate::{Moments, Recorded, Selection, SimulateError};
-use jabuka::{Run, Scene};
+use crate::cache::Cache;
+use crate::output::OutputError;
+use crate::sandbox::Confinement;
+use crate::scene::{Override, View};
+use crate::simulate::{Moments, Recorded, Selection, SimulateError};
+use crate::{Run, Scene};
 
 use super::progress::Progress;
 use super::scene_arguments::SceneArguments;

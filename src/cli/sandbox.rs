@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use jabuka::sandbox::{self, Launch};
+use crate::sandbox::{self, Launch};
 
 use super::terminal;
 

@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use jabuka::Scene;
-use jabuka::cache::Cache;
-use jabuka::diagnostic::Report;
-use jabuka::sandbox::{Confinement, Launcher};
-use jabuka::scene::{Options, Override};
+use crate::Scene;
+use crate::cache::Cache;
+use crate::diagnostic::Report;
+use crate::sandbox::{Confinement, Launcher};
+use crate::scene::{Options, Override};
 
 use super::{Failure, terminal};
 

@@ -1,6 +1,6 @@
 //! The command `jabuka schema`: prints the JSON Schema of scenes, for editors.
 
-use jabuka::scene::grammar;
+use crate::scene::grammar;
 
 use super::{Failure, terminal};
 

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use jabuka::diagnostic::is_invisible;
-use jabuka::system::{SHELL, Shell};
+use crate::diagnostic::is_invisible;
+use crate::system::{SHELL, Shell};
 
 /// Quotes a path as one word of a command for the shells of this system. The shell never reads the word as an option.
 pub(super) fn path(path: &Path) -> String {

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use crate::diagnostic::{visible, visible_path};
+use crate::render::Status;
 use clap::ValueEnum;
-use jabuka::diagnostic::{visible, visible_path};
-use jabuka::render::Status;
 use serde_json::json;
 
 use super::{Failure, terminal};

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use jabuka::diagnostic::visible_path;
-use jabuka::output::{self, Folder};
-use jabuka::overwrite::ProtectedFiles;
-use jabuka::render::{Images, Job, Sequence};
-use jabuka::scene::View;
-use jabuka::simulate::{Moments, SimulateError};
-use jabuka::{Run, Scene};
+use crate::diagnostic::visible_path;
+use crate::output::{self, Folder};
+use crate::overwrite::ProtectedFiles;
+use crate::render::{Images, Job, Sequence};
+use crate::scene::View;
+use crate::simulate::{Moments, SimulateError};
+use crate::{Run, Scene};
 
 use super::picture_arguments::PictureArguments;
 use super::povray_arguments::PovRayArguments;

@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::time::Duration;
 
-use jabuka::diagnostic::visible_path;
-use jabuka::output::Written;
-use jabuka::physics::LawResidual;
-use jabuka::scene::{ContactLaw, is_by_moreau};
-use jabuka::simulate::{ContactTotals, EnergyScale};
-use jabuka::{Run, Scene};
+use crate::diagnostic::visible_path;
+use crate::output::Written;
+use crate::physics::LawResidual;
+use crate::scene::{ContactLaw, is_by_moreau};
+use crate::simulate::{ContactTotals, EnergyScale};
+use crate::{Run, Scene};
 
 use super::shell;
 

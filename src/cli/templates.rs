@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use jabuka::diagnostic::{Code, Report, visible_path};
+use crate::diagnostic::{Code, Report, visible_path};
 
 use super::{Failure, terminal};
 
@@ -15,7 +15,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = &arguments.folder;
-    let written = jabuka::emit::write_templates(folder).map_err(|error| {
+    let written = crate::emit::write_templates(folder).map_err(|error| {
         let message = format!("cannot write templates into `{}`: {error}", visible_path(folder));
         terminal::report(&Report::of_error(Code::CannotWrite, message));
         Failure::Errors

@@ -11,10 +11,10 @@ use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::sync::OnceLock;
 
+use crate::diagnostic::{Code, Report, is_invisible, visible, visible_lines};
+use crate::output::Folder;
+use crate::overwrite::CannotOverwrite;
 use clap::error::ContextKind;
-use jabuka::diagnostic::{Code, Report, is_invisible, visible, visible_lines};
-use jabuka::output::Folder;
-use jabuka::overwrite::CannotOverwrite;
 
 use super::{Failure, shell};
 

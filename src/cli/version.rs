@@ -1,14 +1,16 @@
 //! The output of `jabuka --version --verbose`: the versions of the programs used for rendering.
 
+use std::ffi::OsString;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use jabuka::render::{Build, PovRay};
-use jabuka::sandbox;
+use crate::render::{Build, PovRay};
+use crate::sandbox;
 
-/// Returns true if the command line contains `--verbose` or `-v`. clap stops parsing at `--version`, so the arguments are searched here.
-pub(super) fn is_verbose() -> bool {
-    std::env::args_os().skip(1).any(|argument| {
+/// Returns true if the command line contains `--verbose` or `-v`. clap stops parsing at `--version`, so the arguments are searched here. The
+/// first argument is the name of the program.
+pub(super) fn is_verbose(arguments: &[OsString]) -> bool {
+    arguments.iter().skip(1).any(|argument| {
         let argument = argument.to_string_lossy();
         argument == "--verbose"
             || (argument.starts_with('-') && !argument.starts_with("--") && argument.contains('v'))

@@ -1,7 +1,7 @@
 //! The command-line arguments for the frame rate and quality of a film.
 
+use crate::render::{Film, FilmError, Quality};
 use clap::ValueEnum;
-use jabuka::render::{Film, FilmError, Quality};
 
 /// The frame rate and quality of a film.
 #[derive(clap::Args)]

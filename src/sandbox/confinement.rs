@@ -1,24 +1,51 @@
 //! Builds the command line that starts a program in the sandbox.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 use crate::system;
 
 /// The launcher of the sandbox: a program that restricts its own rights and then becomes another program. It is jabuka itself, with its
 /// command `sandbox`.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Launcher(PathBuf);
+pub struct Launcher {
+    program: PathBuf,
+    /// The arguments before the command `sandbox`.
+    arguments: Vec<OsString>,
+}
+
+/// The launcher of a process that is not the program `jabuka`.
+static OF_THIS_PROCESS: OnceLock<Launcher> = OnceLock::new();
 
 impl Launcher {
     /// Creates a launcher from the path of the program `jabuka`.
     pub fn new(jabuka: impl Into<PathBuf>) -> Launcher {
-        Launcher(absolute(&jabuka.into()))
+        Launcher { program: absolute(&jabuka.into()), arguments: Vec::new() }
     }
 
-    /// Creates a launcher from the running program, which must be `jabuka`. `None` if the system does not reveal its path.
+    /// Sets the arguments before the command `sandbox`. With them, an interpreter can be the launcher if it passes all further arguments to
+    /// `cli::run`.
+    #[must_use]
+    pub fn with_arguments(self, arguments: Vec<OsString>) -> Launcher {
+        Launcher { arguments, ..self }
+    }
+
+    /// Makes this the result of [`of_this_program`](Self::of_this_program) in this process. A program other than `jabuka` calls this before
+    /// it runs commands of jabuka. Only the first call counts.
+    pub fn use_in_this_process(self) {
+        // A second launcher of the same process would be the same program.
+        let _ = OF_THIS_PROCESS.set(self);
+    }
+
+    /// Returns the launcher of this process, or creates one from the running program, which must then be `jabuka`. `None` if the system
+    /// does not reveal its path.
     pub fn of_this_program() -> Option<Launcher> {
-        system::this_program().map(Launcher)
+        if let Some(launcher) = OF_THIS_PROCESS.get() {
+            return Some(launcher.clone());
+        }
+        system::this_program().map(|program| Launcher { program, arguments: Vec::new() })
     }
 }
 
@@ -79,8 +106,9 @@ impl Confinement {
 
     /// Creates the command that starts a program with the rights that it needs. The caller adds the program's arguments.
     pub(crate) fn command(&self, program: &Path, needs: Needs<'_>) -> Command {
-        let Some(Launcher(launcher)) = &self.launcher else { return Command::new(program) };
-        let mut command = Command::new(launcher);
+        let Some(launcher) = &self.launcher else { return Command::new(program) };
+        let mut command = Command::new(&launcher.program);
+        command.args(&launcher.arguments);
         command.args(["sandbox", "--parent", &std::process::id().to_string()]);
         if needs.low_priority {
             command.args(["--nice", "10"]);

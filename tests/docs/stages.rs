@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::support::root;
 
 /// The modules of the library, in an order in which each imports only those before it. A new module gets a line here.
-const STAGES: [&str; 29] = [
+const STAGES: [&str; 30] = [
     "physics",
     "threads",
     "system",
@@ -37,6 +37,7 @@ const STAGES: [&str; 29] = [
     "export",
     "page",
     "preview",
+    "cli",
 ];
 
 /// Returns the stage of a name in the root of the library.
