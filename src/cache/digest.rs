@@ -46,6 +46,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
         distances: _,
         areas: _,
         fields: _,
+        measures: _,
         arrow_marks: _,
         approaches: _,
         file_columns: _,

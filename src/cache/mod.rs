@@ -318,6 +318,14 @@ pub fn simulate(scene: &Scene) -> Result<Recorded<'_>, SimulateError> {
     Cache::none().run(scene, Moments::of(scene), &PairCounter::default(), |_| {})
 }
 
+/// Returns whether the recording of one scene's run is also that of the other's: the same bodies move in the same way, and the same moments
+/// and contacts are recorded.
+#[must_use]
+pub fn have_same_recording(one: &Scene, other: &Scene) -> bool {
+    let key = |scene: &Scene| digest::of(scene, &Moments::of(scene));
+    key(one) == key(other)
+}
+
 /// A file in the cache folder, with its size in bytes and the time of its last use.
 struct Kept {
     path: PathBuf,

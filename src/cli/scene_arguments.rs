@@ -50,6 +50,7 @@ impl SceneArguments {
             overrides: self.set.iter().chain(overrides).cloned().collect(),
             templates: self.templates.clone(),
             trust: self.trust,
+            measures: Vec::new(),
         }
     }
 

@@ -216,6 +216,8 @@ pub struct Scene {
     pub areas: Vec<Area>,
     /// The drawings of fields, in the order of the file.
     pub fields: Vec<DrawnField>,
+    /// The formulas of [`Options::measures`], in their order. No picture shows them.
+    pub measures: Vec<MeasureFormula>,
     /// The texts and components of arrows: first those of bodies, then those of joints.
     pub arrow_marks: Vec<ArrowMark>,
     /// The scale bar in the picture. `None` if the scene has no scale bar.
@@ -247,6 +249,9 @@ pub struct Options {
     pub templates: Option<PathBuf>,
     /// Whether the scene is trusted: its POV-Ray code may open, write and include files, and its paths may lead out of its folder.
     pub trust: bool,
+    /// Further formulas of measures, written as in plots, such as `ball.speed:km/h`. No picture shows them. Their compiled form is
+    /// [`Scene::measures`].
+    pub measures: Vec<String>,
 }
 
 impl Scene {
@@ -261,7 +266,8 @@ impl Scene {
         labels.chain(angles).chain(distances).chain(arrows).chain(components)
     }
 
-    /// Returns all formulas of measures: of texts, plots, looks, cameras, lights, SDL, and of the aggregates in them.
+    /// Returns all formulas of measures: of texts, plots, looks, cameras, lights, SDL, of the aggregates in them, and those that
+    /// [`Options::measures`] asks for.
     pub fn formulas(&self) -> impl Iterator<Item = &MeasureFormula> {
         let of_texts = self.texts().flatten().filter_map(|piece| match piece {
             Piece::Value { formula, .. } => Some(formula),
@@ -278,7 +284,14 @@ impl Scene {
         let of_sdl = self.povray.sdl.iter().filter_map(SdlPiece::formula);
         let of_stage =
             self.cameras().flat_map(Camera::formulas).chain(self.lights.iter().flat_map(Light::formulas));
-        of_texts.chain(of_plots).chain(of_aggregates).chain(of_looks).chain(of_sdl).chain(of_stage)
+        let asked = self.measures.iter();
+        of_texts
+            .chain(of_plots)
+            .chain(of_aggregates)
+            .chain(of_looks)
+            .chain(of_sdl)
+            .chain(of_stage)
+            .chain(asked)
     }
 
     /// Returns all cameras: the main one, then those of the views.

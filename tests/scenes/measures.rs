@@ -4,9 +4,10 @@
 use std::collections::BTreeSet;
 
 use jabuka::Run;
+use jabuka::cache::have_same_recording;
 use jabuka::export::{write_csv, write_joints};
-use jabuka::scene::{BodyMeasure, ColorMap, JointMeasure, Measure, Scene};
-use jabuka::simulate::Selection;
+use jabuka::scene::{BodyMeasure, ColorMap, JointMeasure, Measure, Options, Scene};
+use jabuka::simulate::{Frames, Measures, MomentState, Selection};
 
 /// A crate hangs on a hinge, a bead slides on a rod, a ball falls onto the ground and rebounds, a bob hangs on a spring, and three atoms fly
 /// through air. The last atom appears later.
@@ -305,4 +306,49 @@ fn an_angle_of_zero_has_no_arc() {
         assert_ne!(points[1], points[3], "{line}");
     }
     assert_eq!(cylinders.len(), 2, "the two legs: {cylinders:?}");
+}
+
+/// No picture changes by them: the script is that of the scene without them.
+#[test]
+fn formulas_that_no_picture_shows_have_the_values_of_a_plot() {
+    let text = "[simulation]\nduration = 1\nframe_rate = 4\n\
+                [body.ball]\nshape.sphere.radius = 0.1\nrepeat = 2\nvelocity = ['3 + i', 0, 0]\n";
+    let asked = ["ball[0].speed:km/h", "max(ball.speed) - 1", "kinetic"];
+    let options = Options { measures: asked.map(str::to_owned).to_vec(), ..Options::default() };
+    let (scene, plain) = (Scene::parse_with(text, &options).unwrap(), Scene::parse(text).unwrap());
+    let frame = Frames::new(&scene).nth(2).unwrap().unwrap();
+    let measures = Measures::new(&scene);
+    let now = MomentState::now(&frame);
+    let values: Vec<f64> = scene.measures.iter().map(|formula| measures.value(formula, &now)).collect();
+    assert!((values[0] - 10.8).abs() < 1e-9 && values[1] == 3.0, "{values:?}");
+    assert_eq!(values[2], frame.balance.kinetic_of_all());
+    assert_eq!(scene.measures[0].unit(), Some("km/h"));
+    assert_eq!(scene.digest, plain.digest);
+    let script = |scene: &Scene| Run::new(scene).unwrap().script(&frame).unwrap();
+    assert_eq!(script(&scene), script(&plain));
+}
+
+#[test]
+fn a_mistake_in_such_a_formula_points_into_it() {
+    let text = "[body.ball]\nshape.sphere.radius = 0.1\n";
+    let options = Options { measures: vec!["t + bal.speed".to_owned()], ..Options::default() };
+    let report = Scene::parse_with(text, &options).unwrap_err();
+    let text = report.to_text(false);
+    assert!(text.contains("measure:1:5") && text.contains("did you mean `ball`?"), "{text}");
+}
+
+/// Contact forces are recorded only if something shows them.
+#[test]
+fn a_recording_fits_scenes_that_record_the_same() {
+    let scene = |measures: &[&str], color: &str| {
+        let text = format!(
+            "[simulation]\ncontacts = 'event-driven'\ngravity = [0, -9.81, 0]\n[environment]\nground.height = 0\n\
+             [body.ball]\nshape.sphere.radius = 0.1\nlocation = [0, 1, 0]\nmaterial.color = '{color}'\n"
+        );
+        let measures = measures.iter().map(|&measure| measure.to_owned()).collect();
+        Scene::parse_with(&text, &Options { measures, ..Options::default() }).unwrap()
+    };
+    let plain = scene(&[], "red");
+    assert!(have_same_recording(&plain, &scene(&["ball.speed"], "blue")));
+    assert!(!have_same_recording(&plain, &scene(&["ball.impacts.ground"], "red")));
 }

@@ -60,6 +60,21 @@ pub(super) struct Reader<'a, 'b, 'c> {
     each: Option<Each>,
 }
 
+/// Reads the formulas of [`Options::measures`](crate::scene::Options). Each is a text of its own, so that messages can point into it.
+pub(super) fn read(
+    root: &View<'_>,
+    asked: &[String],
+    things: Things<'_>,
+    context: &mut Context<'_>,
+) -> Vec<MeasureFormula> {
+    let formula = |text: &String| {
+        let span = Span::new(context.sources.add("measure", text.clone()), 0..text.len());
+        let mut reader = Reader::new("formula", (text, span), root, None, things, context);
+        reader.formula_with_unit(0..text.len())
+    };
+    asked.iter().filter_map(formula).collect()
+}
+
 impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
     /// Returns a reader of a text. `noun` is what the text belongs to, for messages.
     pub(super) fn new(

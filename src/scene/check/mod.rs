@@ -375,6 +375,7 @@ fn build(
     povray.templates = templates::read(&root.table(&scene::POVRAY), options.templates.as_deref(), context);
     let labels = label::read(&root, things, &simulation.timeline, context);
     let (plots, places_of_plots) = plot::read(&root, things, context);
+    let measures = measures::read(&root, &options.measures, things, context);
     let color_maps = color_map::read(&root, things, &materials, context);
     let value_maps = value_map::read(&root, things, context);
     let conditions = value_map::conditions(&root, things, context);
@@ -417,6 +418,7 @@ fn build(
         distances,
         areas,
         fields,
+        measures,
         arrow_marks,
         scale_bar,
         grid,
