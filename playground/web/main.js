@@ -4,6 +4,7 @@ import { make } from "../../src/page/web/elements.js";
 import "../../src/page/web/main.js";
 import { element } from "../../src/page/web/parts.js";
 import { load, say, sceneText } from "../../src/page/web/scene_text.js";
+import { keep, kept } from "./kept_text.js";
 import { linkOf, linked } from "./link.js";
 import { makeShelf } from "./shelf.js";
 import { setScene } from "./source.js";
@@ -14,6 +15,8 @@ const FIRST = "newtons_cradle";
 
 /** The bytes of the files beside the scene, by path. */
 let others = {};
+/** The text as it was opened. */
+let opened;
 
 const button = (label, title, deed) => make("button", { type: "button", textContent: label, title, onclick: deed });
 const shelf = makeShelf(async (name) => {
@@ -29,8 +32,9 @@ const name = () => sceneText().file.replace(/\.toml$/, "");
 /** Shows another scene. */
 function show(name, text, files = {}) {
   others = files;
+  opened = text.replace(/\r\n?/g, "\n");
   const path = `${name}.toml`;
-  setScene(path, { ...files, [path]: text.replace(/\r\n?/g, "\n") });
+  setScene(path, { ...files, [path]: opened });
   return load();
 }
 
@@ -39,12 +43,23 @@ async function openExample(name) {
   await show(name, text, files);
 }
 
+/** Shows the text that was edited at this address before the page was loaded again. */
+async function openKept() {
+  const own = kept();
+  const before = opened;
+  if (!own || own.text === before) return;
+  await show(own.name, own.text, others);
+  opened = before;
+  say("This is your text from before. ", button("Start anew", "Show the scene as it was opened", () => show(own.name, before, others)));
+}
+
 async function openLinked() {
   const asked = await linked();
   if (asked?.tutorial) await tutorial.begin();
   else if (asked?.gallery) await openExample(asked.gallery);
   else if (asked) await show(asked.name, asked.text);
   else await openExample(FIRST);
+  if (!asked?.tutorial) await openKept();
 }
 
 async function begin() {
@@ -95,6 +110,7 @@ element("tools").append(button("Examples", "Choose a scene", () => shelf.show())
 element("tools").after(tutorial.pane);
 document.body.append(shelf.dialog);
 showParts();
+window.addEventListener("pagehide", () => sceneText().file && keep({ name: name(), text: sceneText().text }));
 window.addEventListener("hashchange", () => begin());
 window.addEventListener("dragover", (event) => event.preventDefault());
 window.addEventListener("drop", (event) => {

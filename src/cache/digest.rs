@@ -54,6 +54,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
         scale_bar: _,
         grid: _,
         variable_sliders: _,
+        handles: _,
         povray: _,
         output: _,
         name: _,

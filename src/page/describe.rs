@@ -10,7 +10,10 @@ use crate::diagnostic::{Range, Sources};
 use crate::font::{Typeface, Weight};
 use crate::physics::{self, Shape};
 use crate::picture::{PlacedLight, Plan, Thing, has_texts, pale};
-use crate::scene::{Body, Color, Look, LookNumber, Scene, Sky, Timeline, VariableSlider, Visibility};
+use crate::scene::{
+    Body, Color, Handle, HandleKind, HandlePlace, Look, LookNumber, Scene, Sky, Timeline, VariableSlider,
+    Visibility,
+};
 use crate::simulate::Bounds;
 use crate::surface::{Appearance, BaseShape, Detail, Piece, SurfacePattern, appearance_of, ground, pieces};
 
@@ -40,6 +43,7 @@ pub(super) struct Description<'a> {
     tiles: Surface,
     views: Vec<&'a str>,
     sliders: Vec<SliderText<'a>>,
+    handles: Vec<HandleText<'a>>,
     bounds: Option<[[f64; 3]; 2]>,
     /// True if frames contain more to draw than the bodies, such as arrows, springs or labels.
     shows: bool,
@@ -52,6 +56,9 @@ pub(super) struct Description<'a> {
     /// The surroundings of the bodies: camera, lights, ground. `None` while they are unknown.
     stage: Option<Stage>,
 }
+
+/// The largest number of handles. More would hide the picture.
+const MAX_HANDLES: usize = 400;
 
 type Color3 = [f64; 3];
 
@@ -67,6 +74,21 @@ struct SliderText<'a> {
     step: Option<f64>,
     /// Where the value stands in the text of the scene.
     place: Range<'a>,
+}
+
+/// A vector that the user drags in the picture.
+#[derive(Serialize)]
+struct HandleText<'a> {
+    key: &'a str,
+    /// What the vector is: `point` or `velocity`.
+    kind: &'static str,
+    /// The index of the body to which it belongs.
+    body: Option<usize>,
+    value: [f64; 3],
+    /// Where its three components stand in the text of the scene. `None` if the text does not give them.
+    places: Option<[Range<'a>; 3]>,
+    /// Where the name of the table stands that lacks the vector.
+    table: Option<Range<'a>>,
 }
 
 #[derive(Serialize)]
@@ -200,6 +222,24 @@ fn slider<'a>(slider: &'a VariableSlider, sources: &'a Sources) -> SliderText<'a
     }
 }
 
+fn handle<'a>(handle: &'a Handle, sources: &'a Sources) -> HandleText<'a> {
+    let (places, table) = match handle.place {
+        HandlePlace::Given(spans) => (Some(spans.map(|span| sources.range(span))), None),
+        HandlePlace::Missing(name) => (None, Some(sources.range(name))),
+    };
+    HandleText {
+        key: &handle.key,
+        kind: match handle.kind {
+            HandleKind::Point => "point",
+            HandleKind::Velocity => "velocity",
+        },
+        body: handle.body,
+        value: handle.value.to_array(),
+        places,
+        table,
+    }
+}
+
 /// Returns the time of each frame, s. Empty if the film shows simulated time evenly.
 fn times(timeline: &Timeline) -> Vec<f64> {
     let frames = if timeline.speed.is_even() { 0 } else { timeline.frames() };
@@ -247,6 +287,12 @@ pub(super) fn describe(run: &PageRun) -> Description<'_> {
             .variable_sliders
             .iter()
             .map(|slider| self::slider(slider, &scene.warnings.sources))
+            .collect(),
+        handles: scene
+            .handles
+            .iter()
+            .take(MAX_HANDLES)
+            .map(|handle| self::handle(handle, &scene.warnings.sources))
             .collect(),
         bounds: run.bounds().map(|Bounds { min, max }| [min.to_array(), max.to_array()]),
         shows: shows(scene, outcome),

@@ -24,6 +24,8 @@ pub const FILES: &[(&str, &str, &[u8])] = &[
     ("/elements.js", JAVASCRIPT_TYPE, include_bytes!("web/elements.js")),
     ("/film.js", JAVASCRIPT_TYPE, include_bytes!("web/film.js")),
     ("/gl.js", JAVASCRIPT_TYPE, include_bytes!("web/gl.js")),
+    ("/handle_planes.js", JAVASCRIPT_TYPE, include_bytes!("web/handle_planes.js")),
+    ("/handles.js", JAVASCRIPT_TYPE, include_bytes!("web/handles.js")),
     ("/hook.js", JAVASCRIPT_TYPE, include_bytes!("web/hook.js")),
     ("/scene_keys.js", JAVASCRIPT_TYPE, include_bytes!("web/scene_keys.js")),
     ("/lines.js", JAVASCRIPT_TYPE, include_bytes!("web/lines.js")),

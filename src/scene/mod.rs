@@ -87,6 +87,7 @@ mod file_columns;
 mod force;
 pub mod force_formula;
 pub mod grammar;
+mod handle;
 mod joint;
 mod label;
 mod library;
@@ -126,6 +127,7 @@ pub use emitter::Emitter;
 pub(crate) use expand::in_string;
 pub use file_columns::{ColumnUnit, FileColumn, FileColumns};
 pub use force::{Force, ForceKind};
+pub use handle::{Handle, HandleKind, HandlePlace};
 pub use joint::{Joint, JointKind, JointLook, PrescribedCoordinate};
 pub use label::{Corner, Format, Grid, GridPlane, Label, LabelPlace, Piece, ScaleBar, Side};
 pub use library::{LibraryMaterial, MATERIALS, Pattern, PlainLook};
@@ -226,6 +228,8 @@ pub struct Scene {
     pub grid: Option<Grid>,
     /// The sliders of variables, in the order of the scene.
     pub variable_sliders: Vec<VariableSlider>,
+    /// The vectors that a user can drag in the picture. Those of bodies come last.
+    pub handles: Vec<Handle>,
     /// The POV-Ray code of the scene, and its settings for POV-Ray.
     pub povray: PovRay,
     /// The settings for the images, the scripts and the video.

@@ -67,6 +67,12 @@ impl<'a> NamedTable<'a> {
         self.entry.name.span
     }
 
+    /// Returns a view of the table as it stands in the text. `None` for a copy made by `repeat` that is stored as its differences.
+    pub(super) fn original(self) -> Option<View<'a>> {
+        let table = self.entry.node.as_table()?;
+        Some(View { spec: self.spec, table: Some(table) })
+    }
+
     /// Rebuilds the table if it belongs to a copy, and calls `work` with a view of the table.
     pub(super) fn look<T>(self, work: impl FnOnce(&View<'_>) -> T) -> T {
         let table = self.entry.node.table();

@@ -37,6 +37,19 @@ async function says(page, what) {
   await page.locator("#said", { hasText: what }).waitFor({ timeout: LONG });
 }
 
+const textOf = (page) => page.evaluate(() => window.jabuka.editor.view.state.doc.toString());
+
+/** Presses the pointer on a handle. Returns where. */
+async function grab(page, key) {
+  const handle = page.locator(`.handle[aria-label^="${key} "]`);
+  await handle.waitFor();
+  const box = await handle.boundingBox();
+  const at = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  return at;
+}
+
 /** Presses a button of the menu `Save`. Returns the bytes of the file, which must have this name. */
 async function saved(page, button, name) {
   const bytes = await savedFile(page, name, () => page.getByRole("button", { name: button }).click());
@@ -205,7 +218,7 @@ await tests({
         return Boolean((at.nodeType === 3 ? at.parentElement : at).closest(".cm-lintRange"));
       }, [line, column]);
       assert.ok(underlined, name);
-      const text = await page.evaluate(() => window.jabuka.editor.view.state.doc.toString());
+      const text = await textOf(page);
       await action.click();
       const after = await errors();
       assert.notEqual(await page.evaluate(() => window.jabuka.editor.view.state.doc.toString()), text, name);
@@ -251,7 +264,6 @@ await tests({
     await write(page, text);
     await page.locator("#sliders").waitFor();
     assert.deepEqual(await page.locator("#sliders-list label span").allTextContents(), ["<b>speed</b>", "slow", "on"]);
-    const text_of = () => page.evaluate(() => window.jabuka.editor.view.state.doc.toString());
     const end = async (x, y) => {
       await until(page, (jabuka, [x, y]) => jabuka.settled && jabuka.pose("ball", 25) && Math.hypot(jabuka.pose("ball", 25).location[0] - x, jabuka.pose("ball", 25).location[1] - y) < 1e-9, [x, y]);
     };
@@ -260,14 +272,14 @@ await tests({
     await slider.focus();
     for (let k = 0; k < 3; k++) await page.keyboard.press("ArrowRight");
     await end(2.5, 4.25);
-    assert.equal(await text_of(), text.replace("value = 1, min = 0, max = 3", "value = 2.5, min = 0, max = 3"));
+    assert.equal(await textOf(page), text.replace("value = 1, min = 0, max = 3", "value = 2.5, min = 0, max = 3"));
     assert.equal(await slider.getAttribute("aria-valuetext"), "2.5 m/s");
     await page.locator("input[name=on]").uncheck();
     await end(0, 4.25);
     // A formula is left alone.
     await page.locator("input[name=slow]").fill("2");
     await page.locator("#sliders-said", { hasText: "formula" }).waitFor();
-    assert.match(await text_of(), /slow = \{ value = 'fast\/2'/);
+    assert.match(await textOf(page), /slow = \{ value = 'fast\/2'/);
     // Each change can be taken back.
     await page.locator(".cm-content").click();
     await page.keyboard.press("Control+z");
@@ -277,7 +289,6 @@ await tests({
   async a_number_follows_the_pointer_and_the_keys(all) {
     const page = await openBall(all);
     await until(page, (jabuka) => jabuka.editor);
-    const text = () => page.evaluate(() => window.jabuka.editor.view.state.doc.toString());
     const end = (x) => until(page, (jabuka, x) => jabuka.settled && Math.abs(jabuka.pose("ball", 25)?.location[0] - x) < 1e-9, x);
     const at = await page.evaluate(() => {
       const { view } = window.jabuka.editor;
@@ -293,20 +304,20 @@ await tests({
       for (const key of keys) await page.keyboard.up(key);
     };
     await drag("Alt");
-    assert.equal(await text(), BALL.replace("[1, 0, 0]", "[4, 0, 0]"));
+    assert.equal(await textOf(page), BALL.replace("[1, 0, 0]", "[4, 0, 0]"));
     await end(4);
     await drag("Alt", "Shift");
-    assert.equal(await text(), BALL.replace("[1, 0, 0]", "[34, 0, 0]"));
+    assert.equal(await textOf(page), BALL.replace("[1, 0, 0]", "[34, 0, 0]"));
     // One drag is one step that is taken back; without the key, the pointer selects.
     await page.locator(".cm-content").focus();
     await page.keyboard.press("Control+z");
-    assert.equal(await text(), BALL.replace("[1, 0, 0]", "[4, 0, 0]"));
+    assert.equal(await textOf(page), BALL.replace("[1, 0, 0]", "[4, 0, 0]"));
     await drag();
-    assert.equal(await text(), BALL.replace("[1, 0, 0]", "[4, 0, 0]"));
+    assert.equal(await textOf(page), BALL.replace("[1, 0, 0]", "[4, 0, 0]"));
     await page.mouse.click(at.x, at.y);
     await page.keyboard.press("Control+ArrowDown");
     await page.keyboard.press("Control+Shift+ArrowUp");
-    assert.equal(await text(), BALL.replace("[1, 0, 0]", "[13, 0, 0]"));
+    assert.equal(await textOf(page), BALL.replace("[1, 0, 0]", "[13, 0, 0]"));
     await end(13);
   },
 
@@ -327,6 +338,90 @@ await tests({
     assert.ok((await page.evaluate(() => window.jabuka.editor.view.state.doc.toString())).startsWith(variables(1000, 1000)));
   },
 
+  async bodies_are_moved_in_the_picture(all) {
+    const page = await openBall(all);
+    await page.getByRole("button", { name: "Move" }).click();
+    const { x, y } = await grab(page, "body.ball.location");
+    await page.mouse.move(x + 60, y - 40, { steps: 5 });
+    // The ball follows the pointer: the picture of the new run shows it there.
+    const ball = () => until(page, (jabuka, [x, y]) => {
+      const { clip, width, height, center, size } = jabuka.view;
+      const p = jabuka.pose("ball", 0)?.location.map((number, i) => (number - center[i]) / size);
+      if (!p) return false;
+      const row = (i) => clip[i] * p[0] + clip[4 + i] * p[1] + clip[8 + i] * p[2] + clip[12 + i];
+      const stage = document.getElementById("stage").getBoundingClientRect();
+      const at = [stage.x + ((row(0) / row(3) + 1) / 2) * width, stage.y + ((1 - row(1) / row(3)) / 2) * height];
+      return Math.hypot(at[0] - x, at[1] - y) < 1;
+    }, [x + 60, y - 40]);
+    await ball();
+    await page.mouse.up();
+    const [, right, up] = /location = \[([\d.]+), ([\d.]+), 0\]/.exec(await textOf(page));
+    assert.ok(Number(right) > 0.2 && Number(up) > 3.2, `${right} ${up}`);
+    // Numbers are as round as the picture is coarse, and the whole way is one step.
+    assert.ok(right.length <= 5 && up.length <= 5, `${right} ${up}`);
+    await page.locator(".cm-content").click();
+    await page.keyboard.press("Control+z");
+    await until(page, (jabuka, before) => jabuka.editor.view.state.doc.toString() === before, BALL);
+  },
+
+  async velocities_are_pulled_and_keys_move_handles(all) {
+    const page = await openBall(all);
+    await page.keyboard.press("Escape");
+    await page.locator("#picture").focus();
+    await page.keyboard.press("m");
+    const { x, y } = await grab(page, "body.ball.velocity");
+    await page.mouse.move(x, y - 50, { steps: 3 });
+    await page.mouse.up();
+    await until(page, (jabuka) => /velocity = \[[\d.]+, [\d.]*[1-9][\d.]*, 0\]/.test(jabuka.editor.view.state.doc.toString()));
+    const handle = page.locator('.handle[aria-label^="body.ball.location"]');
+    await handle.focus();
+    await page.keyboard.press("ArrowUp");
+    await until(page, (jabuka) => /location = \[0, 3\.\d*, 0\]/.test(jabuka.editor.view.state.doc.toString()));
+    await page.keyboard.press("Shift+ArrowUp");
+    await until(page, (jabuka) => /location = \[0, 3\.\d*, -[\d.]+\]/.test(jabuka.editor.view.state.doc.toString()));
+    assert.equal(await page.evaluate(() => window.jabuka.frame), 0);
+    // A velocity that the text does not give is written below the name of the body.
+    await write(page, BALL.replace("velocity = [1, 0, 0]\n", ""));
+    await until(page, (jabuka) => jabuka.settled && jabuka.problem === null);
+    await until(page, () => document.querySelector('.handle[aria-label^="body.ball.velocity 0"]'));
+    const from = await grab(page, "body.ball.velocity");
+    await page.mouse.move(from.x + 40, from.y, { steps: 3 });
+    await page.mouse.up();
+    await until(page, (jabuka) => /\[body\.ball\]\nvelocity = \[[\d.]*[1-9][\d.]*, -?[\d.]+, 0\]\nshape/.test(jabuka.editor.view.state.doc.toString()));
+  },
+
+  async formulas_are_not_moved_and_all_kinds_of_points_are(all) {
+    const page = await openBall(all);
+    await write(page, `${BALL.replace("[0, 3, 0]", '[0, "2 + 1", 0]')}
+[joint.rod]
+rod.between = ["ball", [0, 5, 0]]
+
+[light.lamp]
+point.location = [4, 6, 4]
+
+[camera]
+location = [0, 3, 12]
+look_at = [0, 3, 0]
+`);
+    await until(page, (jabuka) => jabuka.settled && jabuka.problem === null);
+    await page.getByRole("button", { name: "Move" }).click();
+    const keys = () => page.locator(".handle").evaluateAll((all) => all.map((one) => one.getAttribute("aria-label").split(" ")[0]).sort());
+    const usual = ["body.ball.location", "body.ball.velocity", "joint.rod.rod.between[1]", "light.lamp.point.location"];
+    await until(page, (_, count) => document.querySelectorAll(".handle").length === count, usual.length);
+    assert.deepEqual(await keys(), usual);
+    const { x, y } = await grab(page, "body.ball.location");
+    await page.mouse.move(x + 40, y + 40, { steps: 3 });
+    await page.mouse.up();
+    await says(page, "A formula of `body.ball.location` stays as it is");
+    assert.match(await textOf(page), /location = \[[\d.]+, "2 \+ 1", 0\]/);
+    // The camera is seen from elsewhere only.
+    await page.getByRole("button", { name: "Scene camera" }).click();
+    await until(page, (_, count) => document.querySelectorAll(".handle").length === count, usual.length + 2);
+    assert.deepEqual(await keys(), [...usual, "camera.location", "camera.look_at"].sort());
+    await page.getByRole("button", { name: "Move" }).click();
+    await until(page, () => !document.querySelector(".handle"));
+  },
+
   async the_tutorial_goes_from_a_ball_to_a_link({ open, address, keep, browser }) {
     const page = keep(await newPage(browser));
     await page.goto(`${address}#tutorial`);
@@ -334,7 +429,7 @@ await tests({
     const done = page.locator("#tutorial .done");
     const next = page.getByRole("button", { name: "Next" });
     const mend = page.getByRole("button", { name: "Do it for me" });
-    const editor = () => page.evaluate(() => window.jabuka.editor.view.state.doc.toString());
+    const editor = () => textOf(page);
     await until(page, (jabuka) => jabuka?.settled && jabuka.editor);
     const ways = [
       () => page.evaluate(() => window.jabuka.seek(20)),
@@ -456,6 +551,31 @@ await tests({
     await page.goto(address + link(JSON.stringify(["a", `title = '${title}'\n${BALL}`])));
     await shown(page, 26);
     assert.equal(await page.locator("#title").textContent(), title);
+  },
+
+  async a_link_to_a_faulty_scene_opens_and_can_be_mended({ address, keep, browser }) {
+    const page = keep(await newPage(browser));
+    await page.goto(address + link(JSON.stringify(["ball", BALL.replace("velocity", "velosity")])));
+    await until(page, (jabuka) => jabuka?.problem?.includes("velosity"));
+    await page.locator(".cm-lintRange-error").first().hover();
+    await page.locator(".cm-diagnosticAction").click();
+    await shown(page, 26);
+  },
+
+  async an_edit_outlives_a_reload(all) {
+    const page = await openBall(all);
+    const edited = BALL.replace("[1, 0, 0]", "[2, 0, 0]");
+    await write(page, edited);
+    await until(page, (jabuka) => jabuka.settled && Math.abs(jabuka.pose("ball", 25)?.location[0] - 2) < 1e-9);
+    await page.reload();
+    await shown(page, 26);
+    await until(page, (jabuka) => jabuka.editor);
+    assert.equal(await textOf(page), edited);
+    await page.getByRole("button", { name: "Start anew" }).click();
+    await until(page, (jabuka, text) => jabuka.editor.view.state.doc.toString() === text, BALL);
+    // Another address has its own scene.
+    await page.goto(`${all.address}#gallery=projectile`);
+    await until(page, (jabuka) => jabuka.settled && jabuka.frames !== 26);
   },
 
   async a_scene_that_takes_for_ever_gives_way_to_the_next(all) {

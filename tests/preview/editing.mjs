@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { chmodSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { dirname } from "node:path";
-import { LONG, tests, until } from "./browser.mjs";
+import { LONG, newPage, tests, until } from "./browser.mjs";
 
 /** Waits until the ball is at this place at the end of the run, after 1 s. */
 async function end(page, x) {
@@ -62,6 +62,16 @@ await tests({
     await page.locator(".cm-diagnosticAction").click();
     await until(page, (jabuka) => jabuka.problem === null);
     await file(scene, (now) => now === before);
+  },
+
+  async a_scene_that_is_faulty_from_the_beginning_is_mended({ address, browser, keep }) {
+    const page = keep(await newPage(browser));
+    await page.goto(address);
+    await until(page, (jabuka) => jabuka?.problem?.includes("velosity"));
+    await page.getByRole("button", { name: "Text", exact: true }).click();
+    await until(page, (jabuka) => jabuka.editor);
+    await type(page, "velosity", "velocity");
+    await end(page, 1);
   },
 
   async a_change_from_outside_is_shown_and_can_be_taken_back({ open, scene }) {

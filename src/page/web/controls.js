@@ -3,6 +3,7 @@
 import { listenToChosen } from "./chosen_body.js";
 import { copyCamera } from "./copied_camera.js";
 import { drawn, element, open, panel, player, plots, redraw, viewpoint } from "./parts.js";
+import { toggleHandles } from "./handles.js";
 import { sceneCamera } from "./picture.js";
 import { renderThis } from "./render.js";
 import { foldWarnings, refresh } from "./runs.js";
@@ -76,6 +77,7 @@ const KEYS = [
   [["n"], "N", "choose the next body", () => chooseNext(1)],
   [["b"], "B", "choose the body before", () => chooseNext(-1)],
   [["t"], "T", "the text of the scene", () => element("edit").hidden || element("edit").click()],
+  [["m"], "M", "move things of the scene in the picture, or not", () => element("move").hidden || toggleHandles()],
   [["r"], "R", "render this frame with POV-Ray", () => renderThis()],
   [["?"], "?", "this list", () => element("keys").showModal()],
 ].filter(([, key]) => CAN_RENDER || key !== "R");
@@ -163,6 +165,7 @@ export function listen() {
   element("speed").onchange = () => (player.speed = Number(element("speed").value));
   element("loop").onchange = () => loop(element("loop").checked);
   element("camera").onclick = act(toggleCamera);
+  element("move").onclick = act(toggleHandles);
   element("copy-camera").onclick = copyCamera;
   element("view").onchange = act(() => (open.view = Number(element("view").value)));
   element("render").onclick = renderThis;

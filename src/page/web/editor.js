@@ -75,9 +75,9 @@ export function makeEditor(parent, text, changed) {
       view.dispatch({ changes: { from, to: old.length - same, insert: text.slice(from, text.length - same) }, annotations: isolateHistory.of("full") });
       isTaken = false;
     },
-    /** Changes the text between two offsets. A change that begins a step is undone apart from the changes before it. */
-    change(from, to, insert, begins) {
-      view.dispatch({ changes: { from, to, insert }, annotations: begins ? isolateHistory.of("before") : [] });
+    /** Changes the text at some places. What begins a step is undone apart from the changes before it. */
+    change(changes, begins) {
+      view.dispatch({ changes, annotations: begins ? isolateHistory.of("before") : [] });
     },
     /** Shows the errors and warnings of jabuka that lie in the file of this name. */
     mark(entries, name) {

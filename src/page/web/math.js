@@ -79,6 +79,12 @@ export function projected(matrix, [x, y, z]) {
   return { x: row(0) / w, y: row(1) / w, w };
 }
 
+/** Returns the pixel of the page at which a view shows a point of the world. Undefined behind the camera. */
+export function pixelOf(view, { center, size }, point) {
+  const { x, y, w } = projected(view.clip, times(sub(point, center), 1 / size));
+  return w > 0 ? [((x + 1) / 2) * view.width, ((1 - y) / 2) * view.height] : undefined;
+}
+
 /** Formats a number with a few significant digits. */
 export function short(number, digits = 4) {
   if (!Number.isFinite(number)) return "–";

@@ -11,8 +11,8 @@ export const element = (id) => document.getElementById(id);
 /** The server's state, the shown run (`run`), the run that it is compared with (`other`), and the painter of both. */
 export const open = { state: null, run: null, other: null, view: 0, serial: 0, gone: false, painter: undefined };
 
-/** The frame that was drawn last, and whether it must be drawn again (`dirty`). `waiting` holds callbacks for the next drawn frame. */
-export const drawn = { count: 0, run: null, frame: -1, view: null, dirty: true, waiting: [] };
+/** The frame that was drawn last, its view and its camera, and whether it must be drawn again (`dirty`). `waiting` holds callbacks for the next drawn frame. */
+export const drawn = { count: 0, run: null, frame: -1, view: null, camera: null, dirty: true, waiting: [] };
 
 export const player = new Player();
 export const viewpoint = new Viewpoint();

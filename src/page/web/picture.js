@@ -1,6 +1,7 @@
 // Composes the picture of a frame.
 
 import { showChosen } from "./chosen_body.js";
+import { drawHandles, heldCamera, showHandles } from "./handles.js";
 import { camera as cameraLines, Lines, thing, trail } from "./lines.js";
 import { axes, encoded, isThere, length, short, sub } from "./math.js";
 import { showScriptPart } from "./script_part.js";
@@ -55,10 +56,11 @@ function draw() {
   const canvas = element("picture");
   const picture = compose({ width: canvas.clientWidth, height: canvas.clientHeight, scale: Math.min(2, window.devicePixelRatio || 1) });
   if (!picture) return;
-  const { run, view, layout } = picture;
+  const { run, view, layout, camera } = picture;
   const { position, frame } = player;
   drawn.dirty = false;
   texts.show(layout);
+  showHandles(run, view);
   const film = element("film");
   film.hidden = viewpoint.own;
   const [left, top, w, h] = view.rectangle;
@@ -71,7 +73,7 @@ function draw() {
   plots.mark(player.time);
   panel.show(frame);
   showScriptPart();
-  Object.assign(drawn, { count: drawn.count + 1, run: run.id, frame, position, view });
+  Object.assign(drawn, { count: drawn.count + 1, run: run.id, frame, position, view, camera });
   for (const one of drawn.waiting.splice(0)) if (!one()) drawn.waiting.push(one);
 }
 
@@ -96,7 +98,7 @@ export function compose({ width, height, scale, seen }) {
   const shown = present ?? (run.latest?.view === open.view ? run.latest.shown : undefined);
   open.painter.resize(Math.round(width * scale), Math.round(height * scale));
   const stage = run.description.stage;
-  const camera = !present && shown ? shown.camera : sceneCamera(run, position);
+  const camera = heldCamera() ?? (!present && shown ? shown.camera : sceneCamera(run, position));
   const view = viewpoint.view(camera, open.painter.space, width, height, run.description.size, (eye) => nearestTo(run, at, eye), seen);
   const drawnAt = (body) => (shown?.drawn.length && !shown.drawn[body] ? NOWHERE : at(body));
   open.painter.place("run", drawnAt, (body) => shown?.scale[body] ?? 1);
@@ -110,14 +112,15 @@ export function compose({ width, height, scale, seen }) {
   if (open.other) placeOther(run);
   open.painter.draw(view, shown?.lights ?? stage?.lights ?? [], lines, drawnAt);
   const over = layout(shown, view, open.painter.space, (body) => at(body).slice(0, 3), triads(run, shown, at), stage?.plots ?? [], run.fonts);
-  return { run, view, layout: over };
+  return { run, view, camera, layout: over };
 }
 
-/** Adds the marks of the page: around the chosen body, and the outline of the scene's camera as the viewer's own sees it. */
+/** Adds the marks of the page: around the chosen body, the arrows of handles, and the outline of the scene's camera as the viewer's own sees it. */
 function markPage(lines, run, camera, at, view) {
   if (panel.body !== undefined && !run.description.pieces.every((piece) => piece.body !== panel.body)) {
     mark(lines, view, at(panel.body), run.description.pieces.filter((piece) => piece.body === panel.body && !piece.plane));
   }
+  drawHandles(lines, run);
   if (viewpoint.own && run.description.stage && !camera.width) outlineCamera(lines, camera, run.description.size);
 }
 

@@ -16,7 +16,7 @@ let timer;
 let state = {};
 const waiting = [];
 let editor;
-/** The slider that was moved last, and when. */
+/** What was written last by `setInText`, and when. */
 let moved = {};
 
 /** Returns the text of the page, and the file in which it stands. */
@@ -49,10 +49,11 @@ export async function load() {
   const { file, text, version } = await readText();
   if (!isWritten) return;
   const isOther = file !== scene.file;
+  const isNew = isOther || text !== scene.text;
   Object.assign(scene, { file, text, version });
   if (isOther) editor?.set(text);
   else editor?.update(text);
-  say("");
+  if (isNew) say("");
   check();
 }
 
@@ -60,6 +61,8 @@ export async function load() {
 export function takeState(newest) {
   state = newest;
   element("edit").hidden = state.text === null;
+  // A scene with an error has no picture that could come first.
+  if (TEXT.isOpen && state.problem && !element("editor").hidden) loadEditor();
   if (!isEdited() || state.text === null) return;
   if (state.text !== scene.version && isWritten && !writing) load().catch((error) => say(error.message));
   else check();
@@ -106,7 +109,7 @@ function offer() {
     ({ version: scene.version } = await readText());
     await write();
   };
-  say("Another program has changed the file. ", choice("Take its text", () => load()), " ", choice("Keep this text", keep));
+  say("Another program has changed the file. ", choice("Take its text", () => (say(""), load())), " ", choice("Keep this text", keep));
 }
 
 function edited(text) {
@@ -122,36 +125,58 @@ export function setText(text) {
   edited(text);
 }
 
-/** Writes the value of a slider into the text. */
-export async function setInText(variable, value) {
+/**
+ * Writes numbers into the text, at places that a description of the run names: `find(description)` returns them, each with its value, or the line
+ * that a table lacks. Numbers with the same name that follow each other soon are one step that can be undone. A formula is left alone: returns how
+ * many are, and fails if nothing else is to be written.
+ */
+export async function setInText(name, find) {
   // Places are those of a text that was read. Another slider or a key may have changed the text since then.
   if (!isRead()) await read();
   const { text } = scene;
   const { current, problem } = state;
   if (problem) throw new Error("The text has an error: mend it first.");
-  const { sliders } = await json(`/api/runs/${current}`);
-  if (text !== scene.text || !isRead()) return setInText(variable, value);
-  const place = sliders.find((slider) => slider.variable === variable)?.place;
-  if (!place) throw new Error(`There is no slider of \`${variable}\` any more.`);
-  if (place.file !== scene.file) throw new Error(`\`${variable}\` stands in ${place.file}: change it there.`);
-  const before = text.split("\n").slice(0, place.line - 1).reduce((sum, line) => sum + line.length + 1, 0);
-  const line = text.slice(before).split("\n", 1)[0];
-  const start = [...line].slice(0, place.column - 1).join("").length;
-  const [number] = /^[-+]?[\d._]+(?:[eE][-+]?\d+)?/.exec(line.slice(start)) ?? [];
-  if (number === undefined) throw new Error(`The value of \`${variable}\` is a formula: change it in the text.`);
-  const from = before + start;
+  const description = await json(`/api/runs/${current}`);
+  if (text !== scene.text || !isRead()) return setInText(name, find);
+  const edits = find(description);
+  const changes = edits.map((edit) => (edit.table ? addedLine(edit, name) : writtenNumber(edit, name))).filter(Boolean).sort((a, b) => a.from - b.from);
+  if (!changes.length) throw new Error(`The value of \`${name}\` is a formula: change it in the text.`);
   // The values that a slider passes on its way are one step.
-  const begins = moved.variable !== variable || performance.now() - moved.time > STEP_TIME;
-  moved = { variable, time: performance.now() };
-  if (editor) editor.change(from, from + number.length, String(value), begins);
-  else edited(text.slice(0, from) + String(value) + text.slice(from + number.length));
+  const begins = moved.name !== name || performance.now() - moved.time > STEP_TIME;
+  moved = { name, time: performance.now() };
+  if (editor) editor.change(changes, begins);
+  else edited(changes.reduceRight((all, { from, to, insert }) => all.slice(0, from) + insert + all.slice(to), text));
   await read();
+  return edits.length - changes.length;
 }
 
-/** Loads the editor, which is large, after the first picture. */
+/** Returns the line of the text at a place, where it begins, and where the place is in it. */
+function lineAt(place, name) {
+  if (place.file !== scene.file) throw new Error(`\`${name}\` stands in ${place.file}: change it there.`);
+  const before = scene.text.split("\n").slice(0, place.line - 1).reduce((sum, line) => sum + line.length + 1, 0);
+  const line = scene.text.slice(before).split("\n", 1)[0];
+  return { before, line, start: [...line].slice(0, place.column - 1).join("").length };
+}
+
+/** Returns the change that writes a value in the place of a number. Undefined if a formula stands there. */
+function writtenNumber({ place, value }, name) {
+  const { before, line, start } = lineAt(place, name);
+  const [number] = /^[-+]?[\d._]+(?:[eE][-+]?\d+)?/.exec(line.slice(start)) ?? [];
+  const from = before + start;
+  return number === undefined ? undefined : { from, to: from + number.length, insert: String(value) };
+}
+
+/** Returns the change that adds a line below the header of a table. */
+function addedLine({ table, line: added }, name) {
+  const { before, line } = lineAt(table, name);
+  if (!/^\s*\[[^[\]]+\]\s*(#.*)?$/.test(line)) throw new Error(`The text has no \`${name}\`: write one, then it can be moved.`);
+  const from = before + line.length;
+  return { from, to: from, insert: `\n${added}` };
+}
+
+/** Loads the editor, which is large. */
 async function loadEditor() {
   if (editor) return;
-  await window.jabuka.whenDrawn(() => element("nothing").hidden || element("problem").hidden === false);
   const { makeEditor } = await import("./editor.js");
   if (editor) return;
   editor = makeEditor(element("text"), scene.text, edited);
@@ -159,7 +184,8 @@ async function loadEditor() {
   check();
 }
 
-async function toggle() {
+/** Opens or closes the text. */
+export async function toggleText() {
   const pane = element("editor");
   pane.hidden = !pane.hidden;
   element("edit").setAttribute("aria-expanded", String(!pane.hidden));
@@ -175,10 +201,10 @@ async function toggle() {
 
 /** Lets the user open the text. It is open from the beginning if the source says so. */
 export function listenToText() {
-  element("edit").onclick = toggle;
+  element("edit").onclick = toggleText;
   element("editor").hidden = !TEXT.isOpen;
   element("edit").setAttribute("aria-expanded", String(TEXT.isOpen));
   window.addEventListener("beforeunload", (event) => isWritten || event.preventDefault());
-  // A page that shows this one in a frame may have hidden the text.
-  if (TEXT.isOpen) setTimeout(() => element("editor").hidden || loadEditor());
+  // The first picture comes first. A page that shows this one in a frame may have hidden the text.
+  if (TEXT.isOpen) window.jabuka.whenDrawn().then(() => element("editor").hidden || loadEditor());
 }

@@ -27,6 +27,13 @@ function stepOf({ min, max, step }) {
 /** Returns the value without the rounding error of the browser's arithmetic. */
 const rounded = (value) => Number(value.toPrecision(12));
 
+/** Returns what finds the place of a slider's value in the text. */
+const placeOf = (name, value) => ({ sliders }) => {
+  const slider = sliders.find(({ variable }) => variable === name);
+  if (!slider) throw new Error(`There is no slider of \`${name}\` any more.`);
+  return [{ place: slider.place, value }];
+};
+
 /** Sends the newest values, one after another. A value that has been replaced meanwhile is not sent. */
 async function send() {
   if (sending) return;
@@ -36,7 +43,7 @@ async function send() {
     waiting.delete(name);
     try {
       const isInText = isEdited();
-      await (isInText ? setInText : setVariable)(name, value);
+      await (isInText ? setInText(name, placeOf(name, value)) : setVariable(name, value));
       element("sliders-said").textContent = isInText ? "" : MOVED;
     } catch (error) {
       expected.delete(name);

@@ -16,6 +16,7 @@ mod field;
 mod fonts;
 mod force;
 mod geometry;
+mod handles;
 mod joint;
 mod label;
 mod look;
@@ -423,6 +424,7 @@ fn build(
         scale_bar,
         grid,
         variable_sliders: sliders,
+        handles: handles::read(&root, &bodies, &context.sources),
         color_maps,
         value_maps,
         conditions,

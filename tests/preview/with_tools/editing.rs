@@ -18,3 +18,7 @@ in_the_browser! { Scene::of(BALL), "editing.mjs":
 in_the_browser! { Scene::of(BALL).previewed_with(&["--read-only"]), "editing.mjs":
     a_read_only_preview_has_no_editor,
 }
+
+in_the_browser! { Scene::of(&BALL.replace("velocity", "velosity")), "editing.mjs":
+    a_scene_that_is_faulty_from_the_beginning_is_mended,
+}
