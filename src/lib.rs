@@ -72,12 +72,16 @@ pub mod catalog;
 pub mod cli;
 mod decimal;
 pub mod diagnostic;
+#[cfg(feature = "render")]
+pub mod doctor;
 
 mod drawing;
 pub mod emit;
 pub mod explain;
 pub mod export;
 pub mod font;
+#[cfg(feature = "language-server")]
+pub mod language_server;
 pub mod lettering;
 pub mod motion_warnings;
 mod not_drawn;

@@ -12,9 +12,12 @@ mod cache;
 mod check;
 mod compile;
 mod completions;
+mod doctor;
 mod explain;
 mod export;
 mod interrupt;
+#[cfg(feature = "language-server")]
+mod language_server;
 mod list;
 mod man;
 mod new;
@@ -70,6 +73,7 @@ enum Command {
     Average(average::Arguments),
     Export(export::Arguments),
     Status(status::Arguments),
+    Doctor(doctor::Arguments),
     Check(check::Arguments),
     Report(report::Arguments),
     Cache(cache::Arguments),
@@ -77,6 +81,9 @@ enum Command {
     Explain(explain::Arguments),
     List(list::Arguments),
     Schema(schema::Arguments),
+    #[cfg(feature = "language-server")]
+    #[command(name = "lsp")]
+    LanguageServer(language_server::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
     #[command(hide = true)]
@@ -132,6 +139,7 @@ fn parse_and_run(arguments: &[OsString]) -> u8 {
         Command::Average(arguments) => average::run(&arguments),
         Command::Batch(arguments) => batch::run(&arguments),
         Command::Status(arguments) => status::run(&arguments),
+        Command::Doctor(doctor::Arguments {}) => doctor::run(),
         Command::Check(arguments) => check::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Cache(arguments) => cache::run(&arguments),
@@ -140,6 +148,8 @@ fn parse_and_run(arguments: &[OsString]) -> u8 {
         Command::List(arguments) => list::run(&arguments),
         Command::New(arguments) => new::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
+        #[cfg(feature = "language-server")]
+        Command::LanguageServer(language_server::Arguments {}) => language_server::run(),
         Command::Completions(arguments) => completions::run(&arguments),
         Command::Man(arguments) => man::run(&arguments),
         Command::Sandbox(arguments) => return sandbox::run(arguments),

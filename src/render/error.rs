@@ -67,7 +67,8 @@ impl RenderError {
         match self {
             RenderError::NoPovray(_) => Some(
                 "install POV-Ray 3.7: `apt install povray povray-includes` on Debian and Ubuntu, `brew install povray` \
-                 on macOS, `dnf install povray` on Fedora, and from povray.org on Windows; or say where it is with `--povray PATH`",
+                 on macOS, `dnf install povray` on Fedora, and from povray.org on Windows; or say where it is with `--povray PATH`; \
+                 `jabuka doctor` tells what is there",
             ),
             RenderError::NotPovray(..) => {
                 Some("jabuka needs POV-Ray 3.7 or 3.8: say where it is with `--povray PATH`")

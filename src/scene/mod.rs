@@ -378,18 +378,20 @@ impl Scene {
     /// All mistakes of the scene with their source positions, or the reason why the file cannot be read.
     pub fn from_path_with(path: impl AsRef<Path>, options: &Options) -> Result<Scene, Report> {
         let path = path.as_ref();
-        let text = source::load(path)?;
+        Scene::from_text_at(path, &source::load(path)?, options)
+    }
+
+    /// Reads and checks a text as if it stood in the file `path`, such as a text that an editor has not saved yet.
+    ///
+    /// # Errors
+    /// All mistakes of the scene with their source positions.
+    pub fn from_text_at(path: impl AsRef<Path>, text: &str, options: &Options) -> Result<Scene, Report> {
+        let path = path.as_ref();
         let folder =
             path.parent().map(|folder| if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
         let name = path.file_stem().map_or_else(|| "scene".into(), std::ffi::OsStr::to_string_lossy);
         check::check(
-            &check::Input {
-                name: &name,
-                shown: &path.display().to_string(),
-                path: Some(path),
-                folder,
-                text: &text,
-            },
+            &check::Input { name: &name, shown: &path.display().to_string(), path: Some(path), folder, text },
             options,
         )
     }

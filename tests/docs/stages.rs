@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::support::root;
 
 /// The modules of the library, in an order in which each imports only those before it. A new module gets a line here.
-const STAGES: [&str; 30] = [
+const STAGES: [&str; 32] = [
     "physics",
     "threads",
     "system",
@@ -21,6 +21,7 @@ const STAGES: [&str; 30] = [
     "scene",
     "surface",
     "starter",
+    "language_server",
     "catalog",
     "simulate",
     "report",
@@ -33,6 +34,7 @@ const STAGES: [&str; 30] = [
     "sandbox",
     "output",
     "render",
+    "doctor",
     "overwrite",
     "export",
     "page",

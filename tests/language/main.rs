@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, unreachable_pub, reason = "these are tests")]
 
 mod diagnostics;
+mod editor;
 mod explanations;
 mod include;
 mod mistakes;

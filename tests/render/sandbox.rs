@@ -221,5 +221,15 @@ fn what_is_there_is_said_with_the_version() {
         "{}",
         stdout(&output)
     );
+    let output = jabuka().args(["doctor"]).output().unwrap();
+    let said = stdout(&output);
+    assert!(output.status.success() && said.ends_with("\nall is there\n"), "{said}");
+    assert!(said.contains("\ncores    ") && said.contains(", films as mp4, webm, gif\n"), "{said}");
+    let folder = tempfile::tempdir().unwrap();
+    std::os::unix::fs::symlink("/bin/true", folder.path().join("apt-get")).unwrap();
+    let output = jabuka().args(["doctor"]).env("PATH", folder.path()).output().unwrap();
+    let said = stdout(&output);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(said.ends_with("\nmissing  sudo apt-get install povray povray-includes ffmpeg\n"), "{said}");
     assert_eq!(jabuka().args(["-v", "list"]).output().unwrap().status.code(), Some(2));
 }

@@ -38,7 +38,7 @@ impl Format {
     }
 
     /// Returns ffmpeg's name of the encoder.
-    pub(super) fn encoder(self) -> &'static str {
+    pub fn encoder(self) -> &'static str {
         match self {
             Format::Mp4 => "libx264",
             Format::Webm => "libvpx-vp9",

@@ -85,34 +85,68 @@ pub fn all_keys() -> Vec<FoundKey> {
     found
 }
 
-/// Follows a path from the scene. A word that is no key where a name stands is taken for a name.
+/// Returns the key at a path in a scene, such as `["body", "ball", "mass"]`. `None` if there is no such key, or the path ends in a name.
+pub fn key_at(words: &[&str]) -> Option<FoundKey> {
+    follow(words, Place { needs_names: true, ..Place::scene() })
+}
+
+/// Follows a path as people write it: names may be left out. A word that is no key where a name stands is taken for a name.
 fn at(words: &[&str]) -> Option<FoundKey> {
-    let mut inside: Vec<Inside> = vec![(&SCENE, false)];
-    let mut path = String::new();
-    let mut found = None;
-    for word in words {
-        let key = inside
-            .iter()
-            .find_map(|&table| keys_of(&path, table).into_iter().find(|key| key.spec.name == *word));
-        match key {
-            Some(key) => {
-                inside = tables(&key.spec.kind);
-                path.clone_from(&key.path);
-                found = Some(key);
-            }
-            // A misspelled key is no name: the caller suggests the key.
-            None if words.last() == Some(word) && *word != NAME_PLACEHOLDER => return None,
-            None => {
-                inside.retain(|(_, is_named)| *is_named);
-                inside.iter_mut().for_each(|(_, is_named)| *is_named = false);
-                if inside.is_empty() {
-                    return None;
-                }
-                path = format!("{path}.{NAME_PLACEHOLDER}");
-            }
-        }
+    follow(words, Place::scene())
+}
+
+fn follow(words: &[&str], mut place: Place) -> Option<FoundKey> {
+    let (last, before) = words.split_last()?;
+    if !before.iter().all(|word| place.enter(word)) {
+        return None;
     }
-    found
+    // A misspelled key is no name: the caller suggests the key.
+    let is_key = *last == NAME_PLACEHOLDER || place.key(last).is_some();
+    (is_key && place.enter(last)).then_some(place.found).flatten()
+}
+
+/// Returns the keys of the table at a path, such as `["body", "ball"]`. Empty if there is no such table, or its keys are names.
+pub fn keys_inside(words: &[&str]) -> Vec<FoundKey> {
+    let mut place = Place { needs_names: true, ..Place::scene() };
+    if !words.iter().all(|word| place.enter(word)) {
+        return Vec::new();
+    }
+    let tables = place.inside.iter().filter(|(_, is_named)| !is_named);
+    tables.flat_map(|&table| keys_of(&place.path, table)).collect()
+}
+
+/// A place in the scene: the tables that can stand there, the path to them, and the key that leads there.
+struct Place {
+    inside: Vec<Inside>,
+    path: String,
+    found: Option<FoundKey>,
+    /// Whether a name comes before the keys of a named table. If not, it may be left out.
+    needs_names: bool,
+}
+
+impl Place {
+    fn scene() -> Place {
+        Place { inside: vec![(&SCENE, false)], path: String::new(), found: None, needs_names: false }
+    }
+
+    fn key(&self, word: &str) -> Option<FoundKey> {
+        let tables = self.inside.iter().filter(|(_, is_named)| !(self.needs_names && *is_named));
+        tables.flat_map(|&table| keys_of(&self.path, table)).find(|key| key.spec.name == word)
+    }
+
+    /// Follows a key, or a name where names stand. Returns false if the word is neither.
+    fn enter(&mut self, word: &str) -> bool {
+        if let Some(key) = self.key(word) {
+            self.inside = tables(&key.spec.kind);
+            self.path.clone_from(&key.path);
+            self.found = Some(key);
+            return true;
+        }
+        self.inside.retain(|(_, is_named)| *is_named);
+        self.inside.iter_mut().for_each(|(_, is_named)| *is_named = false);
+        self.path = format!("{}.{NAME_PLACEHOLDER}", self.path);
+        !self.inside.is_empty()
+    }
 }
 
 /// Returns the keys of all tables that can stand at `path`, where the language asks for a value of `kind`.
@@ -188,6 +222,17 @@ mod tests {
         assert_eq!(paths("body"), ["body"]);
         assert_eq!(paths("body.NAME"), ["body"]);
         assert_eq!(paths("material.brass"), ["material"]);
+    }
+
+    #[test]
+    fn in_a_scene_each_table_has_its_name() {
+        let path = |words: &[&str]| key_at(words).map(|key| key.path);
+        assert_eq!(path(&["joint", "rod", "rod", "between"]).as_deref(), Some("joint.NAME.rod.between"));
+        assert_eq!(path(&["body", "mass", "mass"]).as_deref(), Some("body.NAME.mass"));
+        assert_eq!(path(&["joint", "rod"]), None);
+        let names = |words: &[&str]| keys_inside(words).iter().map(|key| key.spec.name).collect::<Vec<_>>();
+        assert!(names(&["body", "ball"]).contains(&"mass") && names(&["body"]).is_empty());
+        assert!(names(&[]).contains(&"body"));
     }
 
     #[test]

@@ -26,7 +26,7 @@ pub(in crate::scene) mod shapes;
 pub(in crate::scene) mod showing;
 
 pub use default::DefaultValue;
-pub use find::{FoundKey, all_keys, find_keys};
+pub use find::{FoundKey, all_keys, find_keys, key_at, keys_inside};
 pub(in crate::scene) use key::{Any, Declared, Key, ReadAs};
 pub(crate) use kind::quoted;
 pub use kind::{Bound, Collection, Kind};
