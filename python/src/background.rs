@@ -28,6 +28,11 @@ impl Stop {
     fn set(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
+
+    /// Whether the request has been made.
+    fn is_set(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
 }
 
 /// What the work and the waiting thread share.

@@ -66,14 +66,14 @@ type Simulated<'a> = (&'a Reading, &'a Arc<Scene>, &'a Outcome);
 /// Why there is no image. `None` if the work was stopped.
 type Failure = Option<Report>;
 
-/// Renders the image of one moment (s), and returns it as PNG.
+/// Renders the image of one moment (s). Returns it as PNG, and the texts of warnings.
 pub(crate) fn still(
     py: Python<'_>,
     simulated: Simulated<'_>,
     time: f64,
     look: &Look,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Vec<u8>> {
+) -> PyResult<(Vec<u8>, Vec<String>)> {
     in_background(py, progress, |control| {
         with_run(simulated, look, |run| {
             let place = Place::new(None)?;
@@ -83,21 +83,22 @@ pub(crate) fn still(
             sequence.moment = Some(time);
             // There is only one image, so POV-Ray may use all processors for it.
             let threads = std::thread::available_parallelism().map_or(1, usize::from);
-            let images = rendered(simulated, &folder, (&sequence, look), threads, control)?;
+            let mut said = warnings(run, &folder);
+            let images = rendered(simulated, &folder, (&sequence, look), (threads, &mut said), control)?;
             let script = sequence.scripts().first().ok_or(None)?;
-            images.read(&script.name).map_err(|error| Some(error.report()))
+            Ok((images.read(&script.name).map_err(|error| error.report())?, said))
         })
     })
 }
 
-/// Renders the frames of a run into a film.
+/// Renders the frames of a run into a film. Returns the texts of warnings.
 pub(crate) fn film(
     py: Python<'_>,
     simulated: Simulated<'_>,
     Film { path, rate, every, folder }: &Film,
     look: &Look,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<()> {
+) -> PyResult<Vec<String>> {
     if *every == 0 {
         return Err(PyValueError::new_err("`every` must be at least 1"));
     }
@@ -115,7 +116,8 @@ pub(crate) fn film(
             output::write(run, &folder, &selection, &|| {}).map_err(|error| error.report())?;
             let sequence = Sequence::open(folder.path(), Some(&selection)).map_err(|error| error.report())?;
             film.check_size(look.size.unwrap_or(sequence.size)).map_err(|error| error.report())?;
-            let images = rendered(simulated, &folder, (&sequence, look), 1, control)?;
+            let mut said = warnings(run, &folder);
+            let images = rendered(simulated, &folder, (&sequence, look), (1, &mut said), control)?;
             let frames: Vec<PathBuf> =
                 sequence.scripts().iter().map(|script| images.image(&script.name)).collect();
             #[allow(clippy::cast_precision_loss, reason = "numbers of frames are small")]
@@ -125,9 +127,22 @@ pub(crate) fn film(
             control.begin(frames.len());
             let done = |done| control.set_done(done);
             let made = film.make(&frames, pace.rate, &ffmpeg, &|| control.is_stopped(), &done);
-            made.map_err(|error| Some(error.report()))
+            made.map_err(|error| error.report())?;
+            Ok(said)
         })
     })
+}
+
+/// Returns the texts of the warnings about pictures of a run, and about files of the folder that the user has edited. Those about its motion
+/// belong to the run.
+fn warnings(run: &Run<'_>, folder: &Folder) -> Vec<String> {
+    let of_motion = jabuka::motion_warnings::all(run.scene(), run.survey()).len();
+    let of_pictures = run.warnings().into_iter().skip(of_motion);
+    let diagnostics: Vec<_> = of_pictures.chain(folder.edits()).collect();
+    if diagnostics.is_empty() {
+        return Vec::new();
+    }
+    vec![Report { sources: run.scene().warnings.sources.clone(), diagnostics }.to_text(false)]
 }
 
 /// Does work that can be stopped, and converts its failure to an exception.
@@ -173,12 +188,13 @@ fn with_run<T>(
     work(&run.seen_by(view).map_err(|error| error.report())?)
 }
 
-/// Renders the scripts of a folder, and returns the folder of the images.
+/// Renders the scripts of a folder with this number of threads for each image. Returns the folder of the images, and adds the texts of warnings
+/// to `said`.
 fn rendered(
     (reading, ..): Simulated<'_>,
     folder: &Folder,
     (sequence, look): (&Sequence, &Look),
-    threads: usize,
+    (threads, said): (usize, &mut Vec<String>),
     control: &Control,
 ) -> Result<Images, Failure> {
     let images = Images::among(folder.dir()).map_err(|error| error.report())?;
@@ -189,6 +205,7 @@ fn rendered(
     };
     let povray =
         PovRay::find(look.povray.as_deref(), &images, confinement).map_err(|error| error.report())?;
+    said.extend(povray.warning());
     let size = look.size.unwrap_or(sequence.size);
     let job = Job {
         sequence,
@@ -207,6 +224,7 @@ fn rendered(
         Event::Made { .. } | Event::Failed(_) => control.step(),
     };
     let outcome = job.run(&mut watch, control.stop()).map_err(|error| error.report())?;
+    said.extend(outcome.warnings.iter().map(|warning| format!("POV-Ray: {warning}")));
     if outcome.stopped {
         return Err(None);
     }

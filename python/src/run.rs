@@ -198,7 +198,7 @@ impl Run {
         events::of(py, &self.scene, &self.outcome)
     }
 
-    /// Renders the image of a moment, and returns it as PNG. `size` is width and height in pixels.
+    /// Renders the image of a moment. Returns it as PNG, and the texts of warnings. `size` is width and height in pixels.
     #[allow(clippy::too_many_arguments, reason = "Python passes each by its name")]
     #[pyo3(signature = (time, *, size, quality, view, povray, progress))]
     fn still(
@@ -210,13 +210,13 @@ impl Run {
         view: Option<String>,
         povray: Option<PathBuf>,
         progress: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Vec<u8>> {
+    ) -> PyResult<(Vec<u8>, Vec<String>)> {
         self.check_time(time)?;
         let look = Look::new((size, quality), view, povray)?;
         pictures::still(py, (&self.reading, &self.scene, &self.outcome), time, &look, progress)
     }
 
-    /// Renders a film into a file. `rate` is its number of frames per second, and `every` renders every n-th frame of the run.
+    /// Renders a film into a file, and returns the texts of warnings. `rate` is its number of frames per second, and `every` renders every n-th frame of the run.
     #[pyo3(signature = (path, *, size, quality, view, povray, progress, rate, every, folder))]
     #[allow(clippy::too_many_arguments, reason = "Python passes each by its name")]
     fn film(
@@ -231,7 +231,7 @@ impl Run {
         rate: Option<f64>,
         every: usize,
         folder: Option<PathBuf>,
-    ) -> PyResult<()> {
+    ) -> PyResult<Vec<String>> {
         let look = Look::new((size, quality), view, povray)?;
         let film = Film { path, rate, every, folder };
         pictures::film(py, (&self.reading, &self.scene, &self.outcome), &film, &look, progress)

@@ -67,3 +67,15 @@ def test_pov_ray_is_confined(tmp_path):
         run.still(size=(32, 24))
     assert caught.value.code == "outside-sandbox"
     assert victim.read_text() == "keep"
+
+
+def test_warnings_about_pictures_are_warnings_of_python(tmp_path):
+    """The first film wrote the script, then the user has edited it."""
+    run = jabuka.Scene(THROW).run()
+    options = {"size": (32, 24), "quality": "draft", "every": 50, "folder": tmp_path / "scripts"}
+    run.film(tmp_path / "film.gif", **options)
+    script = tmp_path / "scripts" / "frame_0000.pov"
+    script.write_text(script.read_text() + "// mine\n")
+    with pytest.warns(jabuka.JabukaWarning, match="frame_0000.pov") as caught:
+        run.film(tmp_path / "film.gif", **options)
+    assert caught[0].filename == __file__

@@ -1,7 +1,10 @@
 """Sweeps: all combinations of values, in order."""
 
+import os
+import signal
+
 import pytest
-from conftest import THROW
+from conftest import ROOT, THROW
 
 import jabuka
 
@@ -34,3 +37,17 @@ def test_warnings_of_runs_come_from_the_line_of_the_sweep():
     with pytest.warns(jabuka.JabukaWarning, match="falls below height 0") as caught:
         jabuka.sweep(scene, {"body.ball.velocity": [[1, 0, 0]]}, len)
     assert [one.filename for one in caught] == [__file__]
+
+
+def test_ctrl_c_stops_all_runs():
+    """The first run presses Ctrl-C at its end. The second one would take many times as long, and has no result."""
+    scene = jabuka.Scene.load(ROOT / "scenes" / "two_galaxies.toml")
+    ended = []
+
+    def press(run):
+        ended.append(len(run))
+        os.kill(os.getpid(), signal.SIGINT)
+
+    with pytest.raises(KeyboardInterrupt):
+        jabuka.sweep(scene, {"simulation.duration": [0.08, 900]}, press, jobs=2)
+    assert ended == [3]

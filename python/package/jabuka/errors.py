@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import warnings
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -161,3 +163,9 @@ class JabukaWarning(UserWarning):
 
 class Interrupted(UserWarning):
     """Ctrl-C has ended a run. The frames so far are kept."""
+
+
+def warn(texts: Iterable[str]) -> None:
+    """Issues warnings at the line that has called a method of jabuka."""
+    for text in texts:
+        warnings.warn("\n" + text.rstrip("\n"), JabukaWarning, stacklevel=3)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _jabuka
-from .errors import Diagnostic, JabukaWarning, diagnostics_of
+from .errors import Diagnostic, diagnostics_of, warn
 from .pictures import Film, Still
 from .progress import Progress, shown
 from .tables import table_of
@@ -105,10 +104,9 @@ class Run(_Motion):
     def _array(self, name: str) -> NDArray[np.float64]:
         return self._core.array(name)
 
-    def _warn(self) -> None:
+    def _warnings(self) -> list[str]:
         text, entries = self._core.warnings
-        if entries != "[]":
-            warnings.warn("\n" + text.rstrip("\n"), JabukaWarning, stacklevel=3)
+        return [text] if entries != "[]" else []
 
     @property
     def bodies(self) -> tuple[str, ...]:
@@ -223,7 +221,7 @@ class Run(_Motion):
         Raises :class:`~jabuka.RenderError` if POV-Ray is missing or fails.
         """
         with shown(progress, "image") as show:
-            png = self._core.still(
+            png, said = self._core.still(
                 time,
                 size=None if size is None else list(size),
                 quality=quality,
@@ -231,6 +229,7 @@ class Run(_Motion):
                 povray=povray,
                 progress=show,
             )
+        warn(said)
         return Still(time, png)
 
     def film(
@@ -254,7 +253,7 @@ class Run(_Motion):
         Raises :class:`~jabuka.RenderError` if POV-Ray or ffmpeg are missing or fail.
         """
         with shown(progress, "image") as show:
-            self._core.film(
+            said = self._core.film(
                 path,
                 size=None if size is None else list(size),
                 quality=quality,
@@ -265,6 +264,7 @@ class Run(_Motion):
                 every=every,
                 folder=folder,
             )
+        warn(said)
         return Film(path)
 
     def __repr__(self) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from . import _jabuka
-from .errors import Diagnostic, Interrupted, JabukaWarning, diagnostics_of
+from .errors import Diagnostic, Interrupted, diagnostics_of, warn
 from .progress import Progress, shown
 from .runs import Run
 
@@ -38,7 +38,7 @@ class Scene:
         self._trust = trust
         self._settings: dict[str, str] = {}
         self._core = self._read(self._settings)
-        self._warn()
+        warn(self._warnings())
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], *, trust: bool = False) -> Scene:
@@ -53,7 +53,7 @@ class Scene:
         scene._trust = trust
         scene._settings = {}
         scene._core = scene._read(scene._settings)
-        scene._warn()
+        warn(scene._warnings())
         return scene
 
     def _read(self, settings: Mapping[str, str]) -> _jabuka.Scene:
@@ -61,10 +61,9 @@ class Scene:
         read = _jabuka.Scene.from_file if is_file else _jabuka.Scene.from_text
         return read(source, [f"{key}={value}" for key, value in settings.items()], self._trust)
 
-    def _warn(self) -> None:
+    def _warnings(self) -> list[str]:
         text, entries = self._core.warnings
-        if entries != "[]":
-            warnings.warn("\n" + text.rstrip("\n"), JabukaWarning, stacklevel=3)
+        return [text] if entries != "[]" else []
 
     def set(self, key: str | Mapping[str, Any], value: Any = None) -> None:
         """Sets a value of the scene: ``scene.set("body.ball.velocity", [3, 5, 0])``.
@@ -75,7 +74,7 @@ class Scene:
         Raises :class:`~jabuka.SceneError` if the scene is wrong with the new values. Then it keeps the old ones.
         """
         self._set(key if isinstance(key, Mapping) else {key: value})
-        self._warn()
+        warn(self._warnings())
 
     def _set(self, values: Mapping[str, Any]) -> None:
         settings = dict(self._settings)
@@ -130,7 +129,7 @@ class Scene:
         if run.interrupted:
             message = f"the run was interrupted at t = {run.times[-1]} s; the frames so far are kept"
             warnings.warn(message, Interrupted, stacklevel=2)
-        run._warn()
+        warn(run._warnings())
         return run
 
     def _run(self, progress: Progress = False, stop: _jabuka.Stop | None = None) -> Run:

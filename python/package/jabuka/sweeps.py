@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from itertools import product
 from typing import Any
 
 from . import _jabuka
-from .errors import JabukaWarning
+from .errors import warn
 from .progress import Progress, shown
 from .runs import Run
 from .scenes import Scene
@@ -99,8 +98,9 @@ def sweep(
             one = base.copy()
             one._set(point)
             run = one._run(stop=stop)
-            said = [text for text, entries in (one._core.warnings, run._core.warnings) if entries != "[]"]
-            return Point(point, run if of is None else of(run)), said
+            # A run that was stopped early has no result.
+            made = run if of is None or stop.is_set() else of(run)
+            return Point(point, made), one._warnings() + run._warnings()
         except Exception as error:
             if hasattr(error, "add_note"):
                 error.add_note("in the sweep, at " + ", ".join(f"{key} = {value}" for key, value in point.items()))
@@ -111,8 +111,7 @@ def sweep(
         try:
             for point, said in pool.map(result, points):
                 done.append(point)
-                for text in said:
-                    warnings.warn("\n" + text.rstrip("\n"), JabukaWarning, stacklevel=2)
+                warn(said)
                 if show is not None:
                     show(len(done), len(points))
         except BaseException:
