@@ -1,8 +1,8 @@
 //! Decides which files a command may replace. The files that the command reads are protected, and so are the files in folders that jabuka
 //! manages.
 //!
-//! A file is identified by its device and inode (`system::FileId`), so symbolic links, hard links, `..`, and names that differ only in case are recognized as
-//! the same file.
+//! A file is identified by `system::FileId`, its device and inode on Unix. So symbolic links, hard links, `..`, and names that differ only in
+//! case are recognized as the same file.
 //!
 //! No command replaces a file that it reads, or a script or image in one of jabuka's folders.
 

@@ -1,9 +1,9 @@
 //! Remembers which folders jabuka has made on this machine, for this user.
 //!
 //! What a folder says about itself, such as its manifest, can come from anyone. So jabuka keeps a note of each folder that it makes or finds
-//! empty, outside of that folder: in `jabuka/made-here` below `XDG_STATE_HOME` or `~/.local/state`; on Windows, below `%LOCALAPPDATA%`. The name of the note is the digest of
-//! the folder's identity: its inode and the time when it was made. A folder that was unpacked, copied or downloaded has another identity.
-//! What has changed since in a folder with a note was changed here, by the user.
+//! empty, outside of that folder: in `jabuka/made-here` below `XDG_STATE_HOME` or `~/.local/state`; on Windows, below `%LOCALAPPDATA%`. The name
+//! of the note is the digest of the folder's identity: its inode and the time when it was made. A folder that was unpacked, copied or
+//! downloaded has another identity. What has changed since in a folder with a note was changed here, by the user.
 
 use std::env;
 use std::ffi::OsString;

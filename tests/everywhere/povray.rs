@@ -9,9 +9,10 @@ use std::process::{Command, ExitCode};
 
 /// An image of one pixel.
 const IMAGE: &[u8] = &[
-    0x89, b'P', b'N', b'G', 0x0d, 0x0a, 0x1a, 0x0a, 0, 0, 0, 0x0d, b'I', b'H', b'D', b'R', 0, 0, 0, 1, 0, 0, 0, 1, 8, 2,
-    0, 0, 0, 0x90, 0x77, 0x53, 0xde, 0, 0, 0, 0x0c, b'I', b'D', b'A', b'T', 0x78, 0x9c, 0x63, 0xf8, 0xff, 0xff, 0x3f, 0, 0x05,
-    0xfe, 0x02, 0xfe, 0x0d, 0xef, 0x46, 0xb8, 0, 0, 0, 0, b'I', b'E', b'N', b'D', 0xae, 0x42, 0x60, 0x82,
+    0x89, b'P', b'N', b'G', 0x0d, 0x0a, 0x1a, 0x0a, 0, 0, 0, 0x0d, b'I', b'H', b'D', b'R', 0, 0, 0, 1, 0, 0,
+    0, 1, 8, 2, 0, 0, 0, 0x90, 0x77, 0x53, 0xde, 0, 0, 0, 0x0c, b'I', b'D', b'A', b'T', 0x78, 0x9c, 0x63,
+    0xf8, 0xff, 0xff, 0x3f, 0, 0x05, 0xfe, 0x02, 0xfe, 0x0d, 0xef, 0x46, 0xb8, 0, 0, 0, 0, b'I', b'E', b'N',
+    b'D', 0xae, 0x42, 0x60, 0x82,
 ];
 
 /// The version 3.7.0.1, as in the resources of a program: `VS_FIXEDFILEINFO`.
@@ -45,9 +46,12 @@ fn render() -> Result<(), String> {
         eprintln!("POV-Ray 3.7.0.1");
         return Ok(());
     }
-    let window = std::env::current_exe().unwrap().file_stem().unwrap().to_string_lossy().starts_with("pvengine");
+    let window =
+        std::env::current_exe().unwrap().file_stem().unwrap().to_string_lossy().starts_with("pvengine");
     if window {
-        let [exit, render, settings] = &options[..] else { return Err(format!("unknown options: {options:?}")) };
+        let [exit, render, settings] = &options[..] else {
+            return Err(format!("unknown options: {options:?}"));
+        };
         if (exit.as_str(), render.as_str()) != ("/EXIT", "/RENDER") {
             return Err(format!("unknown options: {options:?}"));
         }
