@@ -1,4 +1,5 @@
-//! Tests of the language that need other programs: an editor's language server, and the commands of the explanations.
+//! Tests of the language that need other programs: editors and their language servers, and the commands of the explanations.
 
 mod editor;
 mod explanations;
+mod neovim;
