@@ -17,7 +17,7 @@ use jabuka::physics::Method;
 use jabuka::report::plot::{Chart, Curve, Picture, png, svg};
 use jabuka::report::{Assessment, assess};
 use jabuka::scene::expression::{Formula, Function, Program, Scope};
-use jabuka::scene::grammar::{SCENE, find_keys};
+use jabuka::scene::grammar::{SCENE, find_keys, key_at, keys_inside};
 use jabuka::scene::sdl::{Where, files, refusals};
 use jabuka::scene::source::parse;
 use jabuka::scene::{Color, Finish, LibraryMaterial, Options, Override, Preset};
@@ -25,7 +25,7 @@ use jabuka::simulate::Selection;
 use proptest::prelude::*;
 
 /// The public functions with a text argument that are tried here, as `file: name`.
-const TRIED: [&str; 55] = [
+const TRIED: [&str; 58] = [
     "catalog.rs: named",
     "diagnostic/code.rs: named",
     "diagnostic/mod.rs: at",
@@ -69,9 +69,12 @@ const TRIED: [&str; 55] = [
     "scene/expression/scope.rs: slot",
     "scene/expression/scope.rs: value",
     "scene/grammar/find.rs: find_keys",
+    "scene/grammar/find.rs: key_at",
+    "scene/grammar/find.rs: keys_inside",
     "scene/grammar/mod.rs: key",
     "scene/library.rs: named",
     "scene/look.rs: named",
+    "scene/mod.rs: from_text_at",
     "scene/mod.rs: parse",
     "scene/mod.rs: parse_with",
     "scene/preset.rs: named",
@@ -203,6 +206,8 @@ proptest! {
         let _ = (Code::named(&text), Explanation::of(&text), Method::by_name(&text), Function::named(&text));
         let _ = (Preset::named(&text), Finish::named(&text), LibraryMaterial::named(&text), SCENE.key(&text));
         let _ = (Category::named(&text), find_keys(&text));
+        let path: Vec<&str> = text.split('.').collect();
+        let _ = (key_at(&path), keys_inside(&path));
         let _ = (Color::parse(&text), text.parse::<Selection>(), nearest(&text, [other.as_str(), "red"]));
         prop_assert_eq!(visible_lines(&text).lines().count(), text.lines().count());
         let is_visible = !visible(&text).contains(['\u{202e}', '\u{0}', '\n']);
@@ -278,6 +283,7 @@ proptest! {
         let _ = Scene::parse(&text).map_err(|report| report.to_text(false));
         let options = Options { overrides: vec![Override::new(&other)], trust: true, ..Options::default() };
         let _ = Scene::parse_with(&text, &options).map_err(|report| report.to_text(false));
+        let _ = Scene::from_text_at("nowhere/scene.toml", &text, &options).map_err(|report| report.to_text(false));
     }
 }
 
