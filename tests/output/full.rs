@@ -76,8 +76,9 @@ fn on_a_full_disk(folder: &Path, arguments: &[&str]) -> Output {
     command.spawn().unwrap().wait_with_output().unwrap()
 }
 
-/// The commands that this file runs with their standard output on a full disk, and those that need other programs or print nothing there.
-const ELSEWHERE: &[&str] = &["average", "preview", "render", "still", "help"];
+/// The commands that this file runs with their standard output on a full disk, and those that need other programs, print nothing there, or
+/// print to an editor.
+const ELSEWHERE: &[&str] = &["average", "preview", "render", "still", "help", "lsp"];
 
 #[test]
 fn a_full_disk_is_an_error_of_every_command_that_prints() {
@@ -101,6 +102,7 @@ fn a_full_disk_is_an_error_of_every_command_that_prints() {
         &["check", "scene.toml", "--format", "json"],
         &["report", "scene.toml", "--format", "json"],
         &["cache"],
+        &["doctor"],
         &["templates", "mine"],
         &["explain"],
         &["explain", "unknown-key"],
