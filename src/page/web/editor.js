@@ -55,6 +55,8 @@ export function makeEditor(parent, text, changed) {
   ];
   // True while the editor takes a text that the page has already.
   let isTaken = false;
+  /** The time at which the last step of `change` began. */
+  let stepTime = 0;
   const root = parent.attachShadow({ mode: "open" });
   const view = new EditorView({ parent: root, root, state: EditorState.create({ doc: text, extensions }) });
   return {
@@ -77,7 +79,10 @@ export function makeEditor(parent, text, changed) {
     },
     /** Changes the text at some places. What begins a step is undone apart from the changes before it. */
     change(changes, begins) {
-      view.dispatch({ changes, annotations: begins ? isolateHistory.of("before") : [] });
+      // The history joins changes of the same time, so a step is one however long the source takes between its changes.
+      const { time } = view.state.update({}).constructor;
+      if (begins) stepTime = Date.now();
+      view.dispatch({ changes, annotations: [time.of(stepTime), ...(begins ? [isolateHistory.of("before")] : [])] });
     },
     /** Shows the errors and warnings of jabuka that lie in the file of this name. */
     mark(entries, name) {

@@ -131,7 +131,7 @@ function move(axes, ways, step) {
   held.value = [...start];
   axes.forEach((axis, i) => (held.value[axis] = round(start[axis] + ways[i] * scale)));
   held.axes = [...new Set([...held.axes, ...axes])];
-  newest = { handle, axes: held.axes, value: held.value };
+  newest = { handle, axes: held.axes, value: held.value, step: held.step };
   write();
   redraw();
 }
@@ -141,10 +141,10 @@ async function write() {
   if (isWriting) return;
   isWriting = true;
   while (newest) {
-    const { handle, axes, value } = newest;
+    const { handle, axes, value, step } = newest;
     newest = undefined;
     try {
-      const left = await setInText(handle.key, (description) => editsOf(description, handle, axes, value));
+      const left = await setInText(handle.key, (description) => editsOf(description, handle, axes, value), step);
       if (left) {
         say(`A formula of \`${handle.key}\` stays as it is: change it in the text.`);
         held = undefined;
@@ -175,6 +175,8 @@ function made(key) {
     const { handle } = button;
     if (handle.body !== null) panel.choose(handle.body);
     if (!hold(handle)) return;
+    // A drag is one step that can be undone.
+    held.step = Symbol(key);
     button.setPointerCapture(event.pointerId);
     const pixel = pixelOf(held.view, held.space, held.from);
     begun = { pointer: [event.clientX, event.clientY], pixel, moves: false };

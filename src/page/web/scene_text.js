@@ -127,23 +127,23 @@ export function setText(text) {
 
 /**
  * Writes numbers into the text, at places that a description of the run names: `find(description)` returns them, each with its value, or the line
- * that a table lacks. Numbers with the same name that follow each other soon are one step that can be undone. A formula is left alone: returns how
+ * that a table lacks. Numbers of the same `step`, or with the same name and soon after each other, are one step that can be undone. A formula is left alone: returns how
  * many are, and fails if nothing else is to be written.
  */
-export async function setInText(name, find) {
+export async function setInText(name, find, step) {
   // Places are those of a text that was read. Another slider or a key may have changed the text since then.
   if (!isRead()) await read();
   const { text } = scene;
   const { current, problem } = state;
   if (problem) throw new Error("The text has an error: mend it first.");
   const description = await json(`/api/runs/${current}`);
-  if (text !== scene.text || !isRead()) return setInText(name, find);
+  if (text !== scene.text || !isRead()) return setInText(name, find, step);
   const edits = find(description);
   const changes = edits.map((edit) => (edit.table ? addedLine(edit, name) : writtenNumber(edit, name))).filter(Boolean).sort((a, b) => a.from - b.from);
   if (!changes.length) throw new Error(`The value of \`${name}\` is a formula: change it in the text.`);
   // The values that a slider passes on its way are one step.
-  const begins = moved.name !== name || performance.now() - moved.time > STEP_TIME;
-  moved = { name, time: performance.now() };
+  const begins = step ? moved.step !== step : moved.name !== name || performance.now() - moved.time > STEP_TIME;
+  moved = { name, step, time: performance.now() };
   if (editor) editor.change(changes, begins);
   else edited(changes.reduceRight((all, { from, to, insert }) => all.slice(0, from) + insert + all.slice(to), text));
   await read();
