@@ -63,6 +63,7 @@ pub const FILES: &[(&str, &str, &[u8])] = &[
     ("/surroundings.js", JAVASCRIPT_TYPE, include_bytes!("web/surroundings.js")),
     ("/scene_text.js", JAVASCRIPT_TYPE, include_bytes!("web/scene_text.js")),
     ("/texts.js", JAVASCRIPT_TYPE, include_bytes!("web/texts.js")),
+    ("/undo_step.js", JAVASCRIPT_TYPE, include_bytes!("web/undo_step.js")),
     ("/viewpoint.js", JAVASCRIPT_TYPE, include_bytes!("web/viewpoint.js")),
     ("/libraries/codemirror.js", JAVASCRIPT_TYPE, include_bytes!("web/libraries/codemirror.js")),
     ("/libraries/video.js", JAVASCRIPT_TYPE, include_bytes!("web/libraries/video.js")),

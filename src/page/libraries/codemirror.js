@@ -6,6 +6,6 @@ export { HighlightStyle, StreamLanguage, bracketMatching, syntaxHighlighting } f
 export { toml } from "@codemirror/legacy-modes/mode/toml";
 export { lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
 export { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
-export { EditorState } from "@codemirror/state";
+export { EditorState, Transaction } from "@codemirror/state";
 export { EditorView, drawSelection, highlightActiveLine, hoverTooltip, keymap, lineNumbers } from "@codemirror/view";
 export { tags } from "@lezer/highlight";

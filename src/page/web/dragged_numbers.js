@@ -1,6 +1,7 @@
 // Numbers in the text that are dragged with Alt held, or stepped by keys. The last digit changes by one; with Shift, by ten.
 
-import { EditorView, isolateHistory } from "./libraries/codemirror.js";
+import { EditorView } from "./libraries/codemirror.js";
+import { changeInStep } from "./undo_step.js";
 
 /** The way of the pointer for one step, pixels. */
 const STEP_WAY = 4;
@@ -27,15 +28,11 @@ export function stepped(text, steps) {
   return (Math.abs(value) < 0.5 * 10 ** -decimals ? 0 : value).toFixed(decimals) + exponent;
 }
 
-function replace(view, { from, to }, insert, begins) {
-  view.dispatch({ changes: { from, to, insert }, annotations: begins ? isolateHistory.of("before") : [] });
-}
-
 /** Steps the number at the cursor. */
 const byKey = (steps) => (view) => {
   const number = numberAt(view.state, view.state.selection.main.head);
   if (!number) return false;
-  replace(view, number, stepped(number.text, steps), false);
+  view.dispatch({ changes: { from: number.from, to: number.to, insert: stepped(number.text, steps) } });
   return true;
 };
 
@@ -48,12 +45,13 @@ export const numberKeys = [
 function drag(view, number, begun) {
   const { from, text } = number;
   let last = text;
+  let hasBegun = false;
   const move = (event) => {
     const steps = Math.round((event.clientX - begun.clientX) / STEP_WAY) * (event.shiftKey ? 10 : 1);
     const next = stepped(text, steps);
     if (next === last) return;
-    replace(view, { from, to: from + last.length }, next, last === text);
-    last = next;
+    changeInStep(view, { from, to: from + last.length, insert: next }, !hasBegun);
+    [last, hasBegun] = [next, true];
   };
   const end = () => window.removeEventListener("pointermove", move);
   window.addEventListener("pointermove", move);

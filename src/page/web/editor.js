@@ -7,6 +7,7 @@ import {
 } from "./libraries/codemirror.js";
 import { draggedNumbers, numberKeys } from "./dragged_numbers.js";
 import { completions, described } from "./scene_keys.js";
+import { changeInStep } from "./undo_step.js";
 
 /** The colors of the page, in light and dark. */
 const COLORS = HighlightStyle.define([
@@ -55,8 +56,6 @@ export function makeEditor(parent, text, changed) {
   ];
   // True while the editor takes a text that the page has already.
   let isTaken = false;
-  /** The time at which the last step of `change` began. */
-  let stepTime = 0;
   const root = parent.attachShadow({ mode: "open" });
   const view = new EditorView({ parent: root, root, state: EditorState.create({ doc: text, extensions }) });
   return {
@@ -79,10 +78,7 @@ export function makeEditor(parent, text, changed) {
     },
     /** Changes the text at some places. What begins a step is undone apart from the changes before it. */
     change(changes, begins) {
-      // The history joins changes of the same time, so a step is one however long the source takes between its changes.
-      const { time } = view.state.update({}).constructor;
-      if (begins) stepTime = Date.now();
-      view.dispatch({ changes, annotations: [time.of(stepTime), ...(begins ? [isolateHistory.of("before")] : [])] });
+      changeInStep(view, changes, begins);
     },
     /** Shows the errors and warnings of jabuka that lie in the file of this name. */
     mark(entries, name) {
