@@ -1,5 +1,7 @@
 //! Finds the vectors that a user can drag in the picture.
 
+use std::collections::HashMap;
+
 use glam::DVec3;
 
 use crate::diagnostic::{Sources, Span};
@@ -16,7 +18,8 @@ use crate::scene::{Body, Handle, HandleKind, HandlePlace};
 
 /// Returns the handles of a scene: locations and velocities of bodies, points of joints, springs, lights and cameras.
 ///
-/// Copies made by `repeat` have none, since their numbers stand in the text only once. Vectors of formulas have none either.
+/// Copies made by `repeat` have none, and neither have several bodies that get a vector from the same defaults: their numbers stand in the
+/// text only once. Vectors of formulas have none either.
 pub(super) fn read(root: &View<'_>, bodies: &[Body], sources: &Sources) -> Vec<Handle> {
     let mut handles = Vec::new();
     let mut add = |key: String, node: Option<&Node>| {
@@ -50,7 +53,21 @@ pub(super) fn read(root: &View<'_>, bodies: &[Body], sources: &Sources) -> Vec<H
     for key in [&camera::LOCATION, &camera::LOOK_AT] {
         add(format!("camera.{}", key.spec.name), main.node(key));
     }
-    handles.extend(of_bodies(root, bodies, sources));
+    handles.extend(without_shared(of_bodies(root, bodies, sources)));
+    handles
+}
+
+/// Leaves out the handles whose numbers are those of another handle, too.
+fn without_shared(mut handles: Vec<Handle>) -> Vec<Handle> {
+    let given = |handle: &Handle| match handle.place {
+        HandlePlace::Given(spans) => Some(spans),
+        HandlePlace::Missing(_) => None,
+    };
+    let mut uses: HashMap<[Span; 3], usize> = HashMap::new();
+    for spans in handles.iter().filter_map(given) {
+        *uses.entry(spans).or_default() += 1;
+    }
+    handles.retain(|handle| given(handle).is_none_or(|spans| uses[&spans] == 1));
     handles
 }
 
@@ -108,6 +125,18 @@ fn vector(node: &Node, sources: &Sources) -> Option<(DVec3, [Span; 3])> {
 mod tests {
     use crate::Scene;
     use crate::scene::HandlePlace;
+
+    #[test]
+    fn a_default_of_several_bodies_has_no_handle() {
+        let of = |text: &str| {
+            let scene = Scene::parse(&format!("[simulation]\nduration = 1\n{text}")).unwrap();
+            scene.handles.into_iter().map(|handle| handle.key).collect::<Vec<_>>()
+        };
+        let defaults = "[defaults.body]\nlocation = [1, 2, 3]\nvelocity = [1, 0, 0]\n[body.a]\nshape.sphere.radius = 0.1\n";
+        assert_eq!(of(defaults), ["body.a.location", "body.a.velocity"]);
+        let other = "[body.b]\nshape.sphere.radius = 0.1\nlocation = [5, 0, 0]\n";
+        assert_eq!(of(&format!("{defaults}{other}")), ["body.a.location", "body.b.location"]);
+    }
 
     #[test]
     fn handles_are_vectors_that_stand_in_the_text_as_they_are() {
