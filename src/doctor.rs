@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 
 use crate::cache::{Cache, Holding};
 use crate::diagnostic::visible_path;
-use crate::render::{Build, Format, PovRay};
+use crate::render::{Format, PovRay, PovRayBuild};
 use crate::sandbox;
 
 /// What was found on this machine.
@@ -54,7 +54,7 @@ struct Manager {
 }
 
 /// Those of systems come before those that a user can add to a system.
-const MANAGERS: [Manager; 6] = [
+const PACKAGE_MANAGERS: [Manager; 6] = [
     Manager {
         program: "apt-get",
         command: "sudo apt-get install",
@@ -110,7 +110,7 @@ fn installing(missing: &[Program], has: impl Fn(&str) -> bool) -> Option<String>
     if missing.is_empty() {
         return None;
     }
-    let Some(manager) = MANAGERS.iter().find(|manager| has(manager.program)) else {
+    let Some(manager) = PACKAGE_MANAGERS.iter().find(|manager| has(manager.program)) else {
         let sites = missing.iter().map(|program| match program {
             Program::Povray => "POV-Ray is on https://www.povray.org/download/",
             Program::Ffmpeg => "ffmpeg is on https://ffmpeg.org/download.html",
@@ -129,8 +129,8 @@ fn installing(missing: &[Program], has: impl Fn(&str) -> bool) -> Option<String>
 pub fn povray() -> Finding {
     let program = Program::Povray;
     let Ok(path) = PovRay::locate(None) else { return program.missing() };
-    match (PovRay::version_of(&path), Build::of(&path)) {
-        (Some(version), Build::Console) => program.found(&version, &path),
+    match (PovRay::version_of(&path), PovRayBuild::of(&path)) {
+        (Some(version), PovRayBuild::Console) => program.found(&version, &path),
         (Some(version), build) => program.found(&format!("{version}, {}", build.name()), &path),
         (None, _) => program.unknown(&path, "--version"),
     }

@@ -9,7 +9,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 /// The interval between two looks at signals and two reports of progress.
-const INTERVAL: Duration = Duration::from_millis(50);
+const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
 /// A request to stop that several runs can share, such as those of a sweep.
 #[pyclass(frozen)]
@@ -113,7 +113,7 @@ pub(crate) fn run<T: Send>(
         loop {
             // A receiver cannot be shared between threads, so this thread alone has it.
             let waiting = &mut receiver;
-            let waited = py.detach(move || waiting.recv_timeout(INTERVAL));
+            let waited = py.detach(move || waiting.recv_timeout(POLL_INTERVAL));
             match waited {
                 Ok(result) => return Some(result),
                 Err(RecvTimeoutError::Disconnected) => return None,

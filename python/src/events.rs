@@ -16,7 +16,7 @@ use crate::run::{Outcome, broken_down};
 pub(crate) type Events = (Vec<String>, Vec<String>, Py<PyAny>);
 
 /// The numbers of an impact.
-const NUMBERS: usize = 11;
+const NUMBERS_OF_IMPACT: usize = 11;
 
 /// Returns the impacts of a run.
 pub(crate) fn of(py: Python<'_>, scene: &Arc<Scene>, outcome: &Outcome) -> PyResult<Events> {
@@ -41,6 +41,6 @@ pub(crate) fn of(py: Python<'_>, scene: &Arc<Scene>, outcome: &Outcome) -> PyRes
         Ok::<_, SimulateError>((names, numbers))
     });
     let ([first, second], numbers) = read?.whole()?.map_err(|error| broken_down(py, &error))?;
-    let array = PyArray1::from_vec(py, numbers).reshape([first.len(), NUMBERS])?;
+    let array = PyArray1::from_vec(py, numbers).reshape([first.len(), NUMBERS_OF_IMPACT])?;
     Ok((first, second, array.into_any().unbind()))
 }

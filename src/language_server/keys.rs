@@ -6,7 +6,7 @@ use super::document::{Document, keys};
 use crate::scene::grammar::{Kind, key_at, keys_inside};
 
 /// The protocol's kind of a completion that is a key.
-const PROPERTY: u32 = 10;
+const PROPERTY_COMPLETION: u32 = 10;
 /// The protocol's kind of a completion that is one of several words.
 const ENUM_MEMBER: u32 = 20;
 
@@ -61,7 +61,7 @@ fn of_keys(path: &[String]) -> Value {
     let words: Vec<&str> = path.iter().map(String::as_str).collect();
     let items: Vec<Value> = keys_inside(&words)
         .iter()
-        .map(|key| json!({ "label": key.spec.name, "kind": PROPERTY, "documentation": key.spec.meaning }))
+        .map(|key| json!({ "label": key.spec.name, "kind": PROPERTY_COMPLETION, "documentation": key.spec.meaning }))
         .collect();
     json!(items)
 }

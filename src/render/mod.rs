@@ -58,7 +58,6 @@
 //! `which` finds POV-Ray and ffmpeg.
 
 pub mod batch;
-mod build;
 mod contact_sheet;
 mod error;
 mod exposure;
@@ -74,6 +73,7 @@ mod order;
 mod picture;
 mod pool;
 mod povray;
+mod povray_build;
 mod process;
 mod record;
 mod result_collector;
@@ -82,7 +82,6 @@ mod started;
 mod status;
 mod undated;
 
-pub use build::Build;
 pub use contact_sheet::{ContactSheet, Shot};
 pub use error::RenderError;
 pub use fault::Fault;
@@ -94,6 +93,7 @@ pub(crate) use inputs::named;
 pub use job::{Event, Job, Outcome};
 pub use options::{Quality, options};
 pub use povray::PovRay;
+pub use povray_build::PovRayBuild;
 pub use record::{Compare, Files, HIDDEN_FOLDER, Record, State, Verdict};
 pub use sequence::{Script, Sequence};
 pub use status::{Failed, Running, Status};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant, UNIX_EPOCH};
 
-use super::build::{self, Build};
+use super::povray_build::{self, PovRayBuild};
 use super::started::Started;
 use super::{Images, RenderError};
 use crate::sandbox::{Confinement, Needs};
@@ -99,8 +99,8 @@ impl PovRay {
     }
 
     /// Returns the build of this POV-Ray.
-    pub fn build(&self) -> Build {
-        Build::of(&self.path)
+    pub fn build(&self) -> PovRayBuild {
+        PovRayBuild::of(&self.path)
     }
 
     /// Returns the path of the program.
@@ -154,8 +154,8 @@ fn mark(path: &Path, confinement: &Confinement) -> std::io::Result<String> {
 
 /// Runs the program with `--version`, and returns its output. The version of POV-Ray for Windows is read from its file.
 fn ask(path: &Path, confinement: &Confinement) -> Result<String, RenderError> {
-    if Build::of(path) == Build::Windows {
-        let version = build::version_in(path).map_err(RenderError::io(path))?;
+    if PovRayBuild::of(path) == PovRayBuild::Windows {
+        let version = povray_build::version_in(path).map_err(RenderError::io(path))?;
         return Ok(version.map_or_else(String::new, |version| format!("POV-Ray {version}")));
     }
     let mut command = confinement.command(path, Needs::default());

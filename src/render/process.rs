@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use super::images::{Finished, WorkFolder};
 use super::started::Started;
-use super::{Build, PovRay, RenderError};
+use super::{PovRay, PovRayBuild, RenderError};
 use crate::sandbox::Needs;
 use crate::system::{self, Dir};
 
@@ -48,7 +48,7 @@ pub(super) struct Setup<'a> {
 /// A running POV-Ray process.
 pub(super) struct Process {
     child: Started,
-    build: Build,
+    build: PovRayBuild,
     folder: WorkFolder,
     tasks: Vec<RenderTask>,
     names: Names,
@@ -120,8 +120,8 @@ impl Process {
         options.extend(["+Irun.pov", "+Oimage.png"].map(str::to_owned));
         let mut command = setup.povray.command(needs);
         match setup.povray.build() {
-            Build::Console => command.args(options),
-            Build::Windows => {
+            PovRayBuild::Console => command.args(options),
+            PovRayBuild::Windows => {
                 let written = dir.create_new("run.ini")?.write_all((options.join("\n") + "\n").as_bytes());
                 written.map_err(RenderError::io(dir.path()))?;
                 command.args(["/EXIT", "/RENDER", "run.ini"])
@@ -217,7 +217,7 @@ impl Process {
     fn fate(&mut self, exit: ExitStatus) -> Step {
         let message = said(&self.folder.dir, "errors.txt");
         // The meaning of the exit codes of POV-Ray for Windows is not documented.
-        let is_error = exit.code() == Some(1) || self.build == Build::Windows;
+        let is_error = exit.code() == Some(1) || self.build == PovRayBuild::Windows;
         if is_error && !message.is_empty() {
             self.child.end();
             return Step::Broken { message, left: self.tasks.split_off(self.done) };

@@ -20,7 +20,7 @@ pub(crate) fn check(name: &OsStr) -> io::Result<()> {
 }
 
 /// Names of devices. With an ending, they are devices, too: `nul.txt`.
-const DEVICES: [&str; 6] = ["con", "prn", "aux", "nul", "conin$", "conout$"];
+const DEVICE_NAMES: [&str; 6] = ["con", "prn", "aux", "nul", "conin$", "conout$"];
 
 /// Returns what is wrong with a name of a file or folder on Windows, as the end of a sentence that begins with the name. `None` if the
 /// name stands for itself. `.` and `..` are no names, and pass.
@@ -43,7 +43,7 @@ fn wrong_on_windows(name: &str) -> Option<&'static str> {
         let mut rest = stem.strip_prefix(port).unwrap_or_default().chars();
         matches!((rest.next(), rest.next()), (Some('0'..='9' | '¹' | '²' | '³'), None))
     };
-    let is_device = DEVICES.contains(&stem.as_str()) || has_number("com") || has_number("lpt");
+    let is_device = DEVICE_NAMES.contains(&stem.as_str()) || has_number("com") || has_number("lpt");
     is_device.then_some("is a device on Windows")
 }
 

@@ -9,25 +9,25 @@ use std::path::Path;
 
 /// A build of POV-Ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Build {
+pub enum PovRayBuild {
     /// The build for consoles, `povray`.
     Console,
     /// POV-Ray for Windows, `pvengine64`.
     Windows,
 }
 
-impl Build {
+impl PovRayBuild {
     /// Returns the build of a program by its name.
-    pub fn of(path: &Path) -> Build {
+    pub fn of(path: &Path) -> PovRayBuild {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-        if name.starts_with("pvengine") { Build::Windows } else { Build::Console }
+        if name.starts_with("pvengine") { PovRayBuild::Windows } else { PovRayBuild::Console }
     }
 
     /// Returns the name of the build for people.
     pub fn name(self) -> &'static str {
         match self {
-            Build::Console => "the build for consoles",
-            Build::Windows => "POV-Ray for Windows",
+            PovRayBuild::Console => "the build for consoles",
+            PovRayBuild::Windows => "POV-Ray for Windows",
         }
     }
 }
@@ -58,10 +58,10 @@ mod tests {
     #[test]
     fn a_program_is_known_by_its_name() {
         for name in ["pvengine64.exe", "PVENGINE.EXE", "pvengine64", "pvengine-sse2.exe"] {
-            assert_eq!(Build::of(Path::new(name)), Build::Windows, "{name}");
+            assert_eq!(PovRayBuild::of(Path::new(name)), PovRayBuild::Windows, "{name}");
         }
         for name in ["povray", "povray.exe", "povconsole64.exe", "x/pvengine/povray"] {
-            assert_eq!(Build::of(Path::new(name)), Build::Console, "{name}");
+            assert_eq!(PovRayBuild::of(Path::new(name)), PovRayBuild::Console, "{name}");
         }
     }
 
