@@ -1,4 +1,6 @@
-// Prints the SHA-256 of all files that the module makes of scenes, as JSON: node digests.mjs MODULE.wasm SCENE.toml …
+// Prints what the module makes of scenes as lines of the one list that holds for all machines: node digests.mjs MODULE.wasm SCENE.toml …
+//
+// tests/scenes/digests.rs makes the list, and says what a line means.
 
 import { createHash } from "node:crypto";
 import { readFileSync, readdirSync } from "node:fs";
@@ -26,7 +28,22 @@ function filesBelow(folder, before = "") {
   return files;
 }
 
-const digests = {};
+const digest = (contents) => createHash("sha256").update(contents).digest("hex");
+
+/** Returns the digest of all scripts of a run: that of their names and digests, in the order of names. */
+function scriptsDigest(jabuka, id, frames) {
+  const digests = new Map();
+  const { views } = jabuka.json({ path: `/api/runs/${id}` });
+  for (let view = 0; view <= views.length; view++) {
+    for (let from = 0; from < frames; from += TOGETHER) {
+      const packed = jabuka.ask({ path: `/api/runs/${id}/scripts`, frames: { from, to: from + TOGETHER, view } });
+      for (const [file, contents] of unpacked(packed)) digests.set(`${view ? `${views[view - 1]}/` : ""}${file}`, digest(contents));
+    }
+  }
+  const names = [...digests.keys()].sort();
+  return digest(names.map((name) => `${digests.get(name)}  ${name}\n`).join(""));
+}
+
 for (const scene of scenes) {
   const begun = performance.now();
   const jabuka = await Jabuka.start(module, fonts);
@@ -38,16 +55,8 @@ for (const scene of scenes) {
   const progress = jabuka.json({ path: "/api/state" }).runs[current];
   if (progress.problem) throw new Error(progress.problem);
   const name = basename(scene, ".toml");
-  const { views } = jabuka.json({ path: `/api/runs/${current}` });
-  for (let view = 0; view <= views.length; view++) {
-    for (let from = 0; from < progress.frames; from += TOGETHER) {
-      const frames = { from, to: from + TOGETHER, view };
-      for (const [file, bytes] of unpacked(jabuka.ask({ path: `/api/runs/${current}/scripts`, frames }))) {
-        digests[`${name}/${view ? `${views[view - 1]}/` : ""}${file}`] = createHash("sha256").update(bytes).digest("hex");
-      }
-    }
-  }
+  console.log(`${name} scripts ${scriptsDigest(jabuka, current, progress.frames)}`);
+  for (const kind of ["table", "model"]) console.log(`${name} ${kind} ${digest(jabuka.ask({ path: `/api/runs/${current}/${kind}` }))}`);
   const seconds = (milliseconds) => (milliseconds / 1000).toFixed(2);
   console.error(`${name}: simulated in ${seconds(simulated - begun)} s, written in ${seconds(performance.now() - simulated)} s`);
 }
-console.log(JSON.stringify(digests));

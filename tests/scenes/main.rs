@@ -4,6 +4,7 @@
 mod color_maps;
 mod coming_and_going;
 mod contacts;
+mod digests;
 mod first;
 mod followed;
 mod given_motion;
