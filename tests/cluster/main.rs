@@ -2,6 +2,7 @@
 //!
 //! These tests need bash, POV-Ray, ffmpeg, Slurm and munge, GNU parallel, shellcheck, and Python for Open Job Description; `tests/run`
 //! installs them.
+#![cfg(feature = "tests-with-tools")]
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,

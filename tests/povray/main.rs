@@ -1,6 +1,7 @@
 //! Tests of the scripts in real POV-Ray: it parses all of them without warnings, and the pixels show the scene.
 //!
 //! A POV-Ray process sleeps for most of its 0.6 s, so tests that render several scripts start them all at once.
+#![cfg(feature = "tests-with-tools")]
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,

@@ -1,5 +1,6 @@
 //! Tests of `jabuka render` with real POV-Ray: the images are right, nothing is rendered twice, and failures during a long render do no
 //! damage.
+#![cfg(feature = "tests-with-tools")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "these are tests")]
 
 mod again;

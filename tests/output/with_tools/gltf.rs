@@ -1,16 +1,18 @@
 //! Tests of `jabuka export SCENE -o FILE.glb`: models are checked by the Khronos glTF validator and loaded by three.js.
 
-use std::fs;
+use std::fs::{self, File};
+use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::support::{jabuka, root, shorter, stderr, stdout};
 use glam::{DQuat, DVec3};
 use jabuka::Scene;
+use jabuka::export::{write_csv, write_glb};
 use jabuka::physics::Shape;
 use jabuka::picture::{Form, FormKind, Lamp, Plan};
 use jabuka::scene::{Options, Override};
-use jabuka::simulate::{Frame, Frames, survey};
+use jabuka::simulate::{Frame, Frames, Recorded, Selection, survey};
 use serde::Deserialize;
 
 /// The contents of a model file, as `look.mjs` reports them after loading it with three.js.
@@ -204,29 +206,39 @@ fn assert_same_lights(name: &str, seen: &Seen, scene: &Scene, frames: &[Frame]) 
     }
 }
 
+/// A scene, with its frames and the model file that was made of its run.
+struct Exported {
+    scene: Scene,
+    frames: Vec<Frame>,
+    model: PathBuf,
+}
+
+/// Simulates a scene once, and writes a model and a table of the run.
+fn exported(path: &Path, folder: &Path) -> Exported {
+    let overrides = shorter(path).iter().skip(1).step_by(2).map(|setting| Override::new(*setting)).collect();
+    let scene = Scene::from_path_with(path, &Options { overrides, ..Options::default() }).unwrap();
+    let model = folder.join(path.file_name().unwrap()).with_extension("glb");
+    let run = Recorded::new(&scene).unwrap();
+    let all = Selection::first(scene.simulation.timeline.frames());
+    write_glb(&run, &all, BufWriter::new(File::create(&model).unwrap())).unwrap();
+    write_csv(&run, &all, File::create(model.with_extension("csv")).unwrap()).unwrap();
+    let frames = run.frames().map(Result::unwrap).collect();
+    Exported { scene, frames, model }
+}
+
 /// Exports scenes as models and as tables, and compares each model with its table and its scene.
 fn check(scenes: &[PathBuf], folder: &Path) {
-    let both = |scene: &PathBuf| {
-        let file = folder.join(scene.file_name().unwrap()).with_extension("glb");
-        export(scene, &file, shorter(scene));
-        export(scene, &file.with_extension("csv"), shorter(scene));
-        file
-    };
-    let files: Vec<PathBuf> = scenes.iter().map(both).collect();
-    for ((path, file), seen) in scenes.iter().zip(&files).zip(look(&files)) {
-        let name = path.file_stem().unwrap().to_str().unwrap();
-        let overrides =
-            shorter(path).iter().skip(1).step_by(2).map(|setting| Override::new(*setting)).collect();
-        let options = Options { overrides, ..Options::default() };
-        let scene = Scene::from_path_with(path, &options).unwrap();
-        assert_same_motion(name, &seen, &table(&file.with_extension("csv")));
-        let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
-        let spots = assert_same_picture(name, &seen, &scene, &frames);
+    let exported: Vec<Exported> = scenes.iter().map(|path| exported(path, folder)).collect();
+    let files: Vec<PathBuf> = exported.iter().map(|one| one.model.clone()).collect();
+    for (Exported { scene, frames, model }, seen) in exported.iter().zip(look(&files)) {
+        let name = model.file_stem().unwrap().to_str().unwrap();
+        assert_same_motion(name, &seen, &table(&model.with_extension("csv")));
+        let spots = assert_same_picture(name, &seen, scene, frames);
         assert!(spots > 0, "{name}: something is seen");
-        assert_same_lights(name, &seen, &scene, &frames);
+        assert_same_lights(name, &seen, scene, frames);
         // In scenes with many bodies, each body has fewer triangles, so its extent is less accurate.
         if scene.bodies.len() < 50 {
-            assert_same_extent(name, &seen, &scene);
+            assert_same_extent(name, &seen, scene);
         }
     }
 }
