@@ -8,6 +8,7 @@
 //! | `/api/runs/N/ghosts` | the earlier poses that the run shows as ghosts |
 //! | `/api/runs/N/poses?from=A&to=B` | the poses of its bodies in some frames |
 //! | `/api/runs/N/balance`, `…/series?body=I` | its energies and momenta, the motion of a body |
+//! | `/api/runs/N/contacts?body=I&from=A&to=B` | the points at which a body touches others in some frames, and the forces there |
 //! | `/api/runs/N/shown?from=A&to=B` | the objects drawn beside the bodies in some frames |
 //! | `/api/runs/N/particles?from=A&to=B` | its particles in some frames |
 //! | `/api/runs/N/scripts?from=A&to=B` | the scripts of some frames, and the files that they include |
@@ -122,6 +123,9 @@ pub fn answer_of_run(run: &Arc<PageRun>, what: &str, frames: &Frames) -> Result<
         "balance" => Answer::Binary(samples::balance(run, recorded)?),
         "series" if frames.body < run.scene.bodies.len() => {
             Answer::Binary(samples::of_body(run, frames.body, recorded)?)
+        }
+        "contacts" if frames.body < run.scene.bodies.len() => {
+            Answer::Binary(samples::contacts_of(run, frames.body, recorded)?)
         }
         "shown" => Answer::json(&shown::frames(run, frames.view, recorded)?)?,
         "particles" => Answer::Binary(swarms::frames(run, recorded)?),

@@ -14,7 +14,7 @@ use crate::scene::{
     Body, Color, Handle, HandleKind, HandlePlace, Look, LookNumber, Scene, Sky, Timeline, VariableSlider,
     Visibility,
 };
-use crate::simulate::Bounds;
+use crate::simulate::{Bounds, lists_contacts};
 use crate::surface::{Appearance, BaseShape, Detail, Piece, SurfacePattern, appearance_of, ground, pieces};
 
 /// The description of a run, without its frames. Unless noted otherwise, lengths are in meters, angles in degrees, and colors in linear
@@ -49,6 +49,8 @@ pub(super) struct Description<'a> {
     shows: bool,
     /// True if the scene has particle emitters.
     particles: bool,
+    /// True if frames list the points of contact and the forces there.
+    contacts: bool,
     /// The sizes of the files of the fonts that labels have of their own, bytes.
     fonts: Vec<usize>,
     /// True if the run is finished. Until then, its surroundings are those of the run before it, and no results are known.
@@ -297,6 +299,7 @@ pub(super) fn describe(run: &PageRun) -> Description<'_> {
         bounds: run.bounds().map(|Bounds { min, max }| [min.to_array(), max.to_array()]),
         shows: shows(scene, outcome),
         particles: !scene.emitters.is_empty(),
+        contacts: simulation.contacts.is_some() && lists_contacts(scene),
         fonts: fonts(scene).map(|font| font.font(Weight::Regular).bytes().len()).collect(),
         settled: run.outcome().is_some_and(|outcome| outcome.is_ok()),
         stage: outcome.map(|outcome| stage(run, outcome)),

@@ -16,6 +16,7 @@ pub const FILES: &[(&str, &str, &[u8])] = &[
     ("/icon.svg", "image/svg+xml", include_bytes!("web/icon.svg")),
     ("/main.js", JAVASCRIPT_TYPE, include_bytes!("web/main.js")),
     ("/chosen_body.js", JAVASCRIPT_TYPE, include_bytes!("web/chosen_body.js")),
+    ("/contacts.js", JAVASCRIPT_TYPE, include_bytes!("web/contacts.js")),
     ("/controls.js", JAVASCRIPT_TYPE, include_bytes!("web/controls.js")),
     ("/copied_camera.js", JAVASCRIPT_TYPE, include_bytes!("web/copied_camera.js")),
     ("/download.js", JAVASCRIPT_TYPE, include_bytes!("web/download.js")),

@@ -11,6 +11,10 @@ pub(super) const NUMBERS_PER_BALANCE: usize = 13;
 /// The number of values in a sample of one body at one frame.
 #[cfg(test)]
 pub(super) const NUMBERS_PER_SAMPLE: usize = 15;
+/// The number of values of a contact of one body at one frame.
+#[cfg(test)]
+pub(super) const NUMBERS_PER_CONTACT: usize = 11;
+
 /// Encodes the poses of all bodies in some frames. Each frame has all locations (x y z), then all orientations (x y z w). The numbers of
 /// an absent body are NaN.
 pub(crate) fn poses(

@@ -50,6 +50,30 @@ pub(super) fn of_body(
     Ok(all)
 }
 
+/// Encodes the contacts of a body in each frame, with 11 numbers for each contact: the index of the frame, that of the other body, the point
+/// of contact, the normal force on the body, and the friction on it. The ground has the index after that of the last body.
+pub(super) fn contacts_of(
+    run: &PageRun,
+    body: usize,
+    frames: impl Iterator<Item = usize>,
+) -> io::Result<Vec<u8>> {
+    let (recording, mut all) = (run.recording(), Vec::new());
+    let mut reader = recording.read();
+    for frame in frames {
+        let moment = reader.seen(frame)?;
+        for contact in moment.contacts.iter().filter(|contact| contact.bodies.contains(&body)) {
+            let [first, second] = contact.bodies;
+            // The forces are those on the second body.
+            let (other, sign) = if body == first { (second, -1.0) } else { (first, 1.0) };
+            put(&mut all, &[frame as f64, other as f64]);
+            put(&mut all, &contact.place.to_array());
+            put(&mut all, &(sign * contact.force).to_array());
+            put(&mut all, &(sign * contact.friction).to_array());
+        }
+    }
+    Ok(all)
+}
+
 /// Returns the kinetic energy of a body, translational and rotational, J.
 fn kinetic(body: &RigidBody, at: &BodySnapshot) -> f64 {
     if body.fixed || body.mass <= 0.0 {
@@ -62,7 +86,7 @@ fn kinetic(body: &RigidBody, at: &BodySnapshot) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::numbers::{NUMBERS_PER_BALANCE, NUMBERS_PER_SAMPLE};
+    use super::super::numbers::{NUMBERS_PER_BALANCE, NUMBERS_PER_CONTACT, NUMBERS_PER_SAMPLE};
     use super::*;
     use crate::Scene;
 
@@ -98,6 +122,34 @@ mod tests {
         assert_eq!(last(balance(&run, 0..11).unwrap(), NUMBERS_PER_BALANCE), expected);
         assert_eq!(last(of_body(&run, 0, 0..11).unwrap(), NUMBERS_PER_SAMPLE), expected);
         assert_eq!(last(of_body(&run, 1, 0..11).unwrap(), NUMBERS_PER_SAMPLE), [0.0; 11]);
+    }
+
+    /// A crate of 8 kg rests on the ground, and a force pulls it along with 10 N. The ground holds it with its weight and with friction.
+    #[test]
+    fn contacts_hold_a_body_with_its_weight_and_with_friction() {
+        let text = "simulation = { duration = 1, gravity = [0, -10, 0], contacts = 'event-driven' }
+            [body.crate]\nshape.box.size = [1, 1, 1]\nmass = 8\nlocation = [0, 0.5, 0]\nfriction = 0.5
+            [body.far]\nshape.sphere.radius = 0.1\nlocation = [9, 5, 0]
+            [force.pull.constant]\nforce = [10, 0, 0]\non = ['crate']\n";
+        let scene = Scene::parse(text).unwrap();
+        let run = PageRun::whole(scene);
+        let numbers: Vec<f64> = contacts_of(&run, 0, 20..21)
+            .unwrap()
+            .chunks_exact(8)
+            .map(|chunk| f64::from_le_bytes(chunk.try_into().unwrap()))
+            .collect();
+        let (contacts, rest) = numbers.as_chunks::<NUMBERS_PER_CONTACT>();
+        assert!(rest.is_empty() && !contacts.is_empty());
+        let mut sum = [0.0; 6];
+        for contact in contacts {
+            let [frame, other, _, height, _, forces @ ..] = contact;
+            assert_eq!((*frame, *other), (20.0, 2.0));
+            assert!(height.abs() < 1e-9, "{height}");
+            sum.iter_mut().zip(forces).for_each(|(sum, force)| *sum += force);
+        }
+        let expected = [0.0, 80.0, 0.0, -10.0, 0.0, 0.0];
+        assert!(sum.iter().zip(expected).all(|(sum, force)| (sum - force).abs() < 1e-6), "{sum:?}");
+        assert!(contacts_of(&run, 1, 20..21).unwrap().is_empty());
     }
 
     /// The sum of the kinetic energies of all bodies equals the kinetic energy of the run.

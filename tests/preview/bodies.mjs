@@ -37,6 +37,26 @@ await tests({
     assert.equal((await values(page, 8)).velocity, "2, 2, 0 m/s", "the values go with the time");
   },
 
+  async contacts_are_shown_with_their_forces({ open }) {
+    const page = await open();
+    await until(page, (jabuka) => jabuka.settled);
+    await page.locator("#body-name").fill("crate");
+    await page.keyboard.press("Enter");
+    await seek(page, 20);
+    // The ground holds its weight and that of the ball on it, and the force that pulls it.
+    await page.locator("#body-values", { hasText: "the ground, 100 N, friction 10 N" }).waitFor();
+    assert.match(await page.locator("#body-values").innerText(), /ball, 20 N/);
+    const lookAt = () => seek(page, 20).then(() => projected(page, [0.05, 0.3, 0])).then((spot) => color(page, spot));
+    const isGreen = ([red, green, blue]) => green > 1.5 * red && green > 1.2 * blue;
+    assert.ok(!isGreen(await lookAt()));
+    // The force pulls at a height of 0.5 m, so the center of pressure is 10 N · 0.5 m / 100 N to the right. There begins the arrow, in front of the crate.
+    await page.locator("#show-contacts").check();
+    const limit = Date.now() + 20_000;
+    while (!isGreen(await lookAt())) assert.ok(Date.now() < limit, "there is no arrow");
+    await page.locator("#show-contacts").uncheck();
+    assert.ok(!isGreen(await lookAt()));
+  },
+
   async a_body_is_seen_while_it_is_there({ open }) {
     const page = await open();
     await until(page, (jabuka) => jabuka.settled);

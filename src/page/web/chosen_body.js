@@ -1,5 +1,6 @@
-// What the viewer wants to see of the chosen body: its trail, and arrows of its velocity and of the force on it.
+// What the viewer wants to see of the chosen body: its trail, arrows of its velocity and of the force on it, and its contacts.
 
+import { contactsByFrame, drawContacts, touches } from "./contacts.js";
 import { thing, trail } from "./lines.js";
 import { add, isThere, length, times } from "./math.js";
 import { element, open, panel, redraw } from "./parts.js";
@@ -18,18 +19,23 @@ let known = {};
 
 const isWanted = (what) => element(`show-${what}`).checked;
 
+/** Returns a large one of some values, of which few are larger. Undefined if none is positive. */
+function large(values) {
+  const sorted = values.filter((value) => value > 0).sort((a, b) => a - b);
+  return sorted[Math.floor(USUAL * (sorted.length - 1))];
+}
+
 async function fetchMotion(run, body) {
   const every = Math.max(1, Math.ceil(run.frames / MOST_SAMPLES));
   const motion = { run, body, every, settled: Boolean(run.progress?.settled) };
   known = motion;
   try {
-    const numbers = await run.series(body, 0, run.frames, every);
-    const large = ({ at }) => {
-      const values = Array.from({ length: numbers.length / 15 }, (_, k) => length(numbers.subarray(15 * k + at, 15 * k + at + 3)));
-      const sorted = values.filter((value) => value > 0).sort((a, b) => a - b);
-      return sorted[Math.floor(USUAL * (sorted.length - 1))];
-    };
-    Object.assign(motion, { numbers, large: Object.fromEntries(Object.entries(ARROWS).map(([name, arrow]) => [name, large(arrow)])) });
+    const [numbers, contacts] = await Promise.all([run.series(body, 0, run.frames, every), run.contacts(body, 0, run.frames, every)]);
+    const sizes = ({ at }) => Array.from({ length: numbers.length / 15 }, (_, k) => length(numbers.subarray(15 * k + at, 15 * k + at + 3)));
+    const largest = Object.fromEntries(Object.entries(ARROWS).map(([name, arrow]) => [name, large(sizes(arrow))]));
+    const ofContacts = contactsByFrame(contacts);
+    const forces = [...ofContacts.values()].flatMap(touches).map(({ normal, friction }) => length(add(normal, friction)));
+    Object.assign(motion, { numbers, large: { ...largest, contacts: large(forces) }, contacts: ofContacts });
     redraw();
   } catch (error) {
     if (known === motion) known = {};
@@ -50,12 +56,17 @@ export function showChosen(lines, run, at, position) {
   const { size } = open.painter.space;
   if (isWanted("trail")) trail(lines, run, { body, radius: LINE * size, color: [0.1, 0.55, 1] }, position, MOST_POINTS);
   const here = at(body);
-  if (!Object.keys(ARROWS).some(isWanted) || !isThere(here)) return;
+  if (![...Object.keys(ARROWS), "contacts"].some(isWanted) || !isThere(here)) return;
   const isNew = known.run !== run || known.body !== body || known.settled !== Boolean(run.progress?.settled);
   if (isNew) fetchMotion(run, body);
-  const { numbers, large, every } = known;
+  const { numbers, large, every, contacts } = known;
   const sample = 15 * Math.round(position / every);
   if (!(sample < numbers?.length)) return;
+  if (isWanted("contacts")) {
+    const touching = contacts.get(every * Math.round(position / every)) ?? [];
+    // Bodies would hide the points at which they touch.
+    drawContacts(lines.inFront, touching, (MOST_ARROW * size) / (large.contacts ?? Infinity), size);
+  }
   for (const [name, { at, color }] of Object.entries(ARROWS)) {
     const value = Array.from(numbers.subarray(sample + at, sample + at + 3));
     if (!isWanted(name) || !(large[name] > 0) || !(length(value) > 1e-6 * large[name])) continue;
@@ -69,5 +80,5 @@ export function showChosen(lines, run, at, position) {
 
 /** Draws the picture again when another line is wanted. */
 export function listenToChosen() {
-  for (const what of ["trail", ...Object.keys(ARROWS)]) element(`show-${what}`).onchange = redraw;
+  for (const what of ["trail", ...Object.keys(ARROWS), "contacts"]) element(`show-${what}`).onchange = redraw;
 }

@@ -11,6 +11,11 @@ export class Lines {
     this.corners = [];
   }
 
+  /** The lines that nothing hides. */
+  get inFront() {
+    return (this.front ??= new Lines());
+  }
+
   /** Adds an area: triangles from the first point to each two neighboring others. */
   addArea([first, ...points], opacity, color) {
     for (let i = 1; i < points.length; i++) {

@@ -200,6 +200,9 @@ export class Painter {
     this.drawLines(lines, view);
     this.drawAreas(lines, view);
     this.drawBodies("other", [0.9, 0.6, 0.05, 0.55]);
+    if (!lines.front) return;
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    this.drawLines(lines.front, view);
   }
 
   lamps(lamps) {

@@ -1,5 +1,6 @@
 // The panel with the values of the chosen body.
 
+import { contactsByFrame, touches } from "./contacts.js";
 import { isThere, length, short } from "./math.js";
 
 /** The number of frames whose values of a body are fetched together. */
@@ -29,6 +30,7 @@ export class Panel {
     this.name.value = this.run?.description.bodies[body]?.name ?? "";
     if (body === undefined) this.values.replaceChildren();
     this.shows.hidden = body === undefined;
+    this.showsContacts.hidden = !this.run?.description.contacts;
     this.chosen(body);
   }
 
@@ -40,20 +42,21 @@ export class Panel {
     const number = Math.floor(frame / BLOCK);
     const at = 15 * (frame % BLOCK);
     const known = this.blocks.get(number);
-    if (!known || known.length < at + 15) {
+    if (!(known?.block.length >= at + 15)) {
       if (this.asking) return;
       this.asking = true;
       try {
-        const block = await run.series(body, number * BLOCK, (number + 1) * BLOCK);
-        if (run === this.run && body === this.body) this.blocks.set(number, block);
+        const frames = [body, number * BLOCK, (number + 1) * BLOCK];
+        const [block, contacts] = await Promise.all([run.series(...frames), run.contacts(...frames)]);
+        if (run === this.run && body === this.body) this.blocks.set(number, { block, contacts: contactsByFrame(contacts) });
       } catch (error) {
         if (error.status !== 404) console.warn(error.message);
       }
       this.asking = false;
-      if (this.blocks.get(number)?.length >= at + 15 || this.frame !== frame) this.show(this.frame);
+      if (this.blocks.get(number)?.block.length >= at + 15 || this.frame !== frame) this.show(this.frame);
       return;
     }
-    const n = known.subarray(at, at + 15);
+    const n = known.block.subarray(at, at + 15);
     const description = run.description.bodies[body];
     const three = (i) => Array.from(n.subarray(i, i + 3));
     // A component that differs from zero only by a rounding error is shown as 0.
@@ -68,9 +71,17 @@ export class Panel {
       ["speed", `${short(length(three(4)))} m/s`],
       ["angular velocity", written(three(7), "rad/s")],
       ["force", written(three(10), "N")],
+      ...touches(known.contacts.get(frame) ?? []).map((touch) => ["touches", this.touch(touch)]),
       ["kinetic energy", `${short(n[13])} J`],
       ...(Number.isNaN(n[14]) ? [] : [["impacts", short(n[14])]]),
     ]);
+  }
+
+  /** Says which body touches the chosen one, and with which forces. */
+  touch({ other, normal, friction }) {
+    const name = this.run.description.bodies[other]?.name ?? "the ground";
+    const [pressing, rubbing] = [normal, friction].map(length);
+    return `${name}, ${short(pressing)} N${rubbing > 1e-9 * pressing ? `, friction ${short(rubbing)} N` : ""}`;
   }
 
   fill(rows) {

@@ -16,7 +16,7 @@ export const drawn = { count: 0, run: null, frame: -1, view: null, camera: null,
 
 export const player = new Player();
 export const viewpoint = new Viewpoint();
-export const panel = new Panel({ name: element("body-name"), names: element("body-names"), values: element("body-values"), shows: element("body-shows") });
+export const panel = new Panel({ name: element("body-name"), names: element("body-names"), values: element("body-values"), shows: element("body-shows"), showsContacts: element("show-contacts").parentElement });
 export const plots = new Plots({
   frame: element("plots"), canvas: element("plot"), choice: element("plotted"), against: element("against"), difference: element("difference"),
   legend: element("legend"), drift: element("drift"), csv: element("plot-csv"), svg: element("plot-svg"), enlarge: element("plot-enlarge"), said: element("plot-said"),

@@ -296,6 +296,12 @@ export class Run {
     return new Float64Array(await binary(`/api/runs/${this.id}/series`, { body, from, to, every }));
   }
 
+  /** Fetches the contacts of a body in some frames. */
+  async contacts(body, from, to, every = 1) {
+    if (!this.description.contacts) return new Float64Array();
+    return new Float64Array(await binary(`/api/runs/${this.id}/contacts`, { body, from, to, every }));
+  }
+
   /** Releases the data of the run, which is no longer shown. */
   close() {
     this.fonts.filter(Boolean).forEach((font) => document.fonts.delete(font));

@@ -39,6 +39,30 @@ in_the_browser! { Scene::of(COMING), "bodies.mjs":
     a_body_is_seen_while_it_is_there,
 }
 
+/// A crate with a ball on it, at rest on the ground. A force pulls the crate, which friction holds.
+const RESTING: &str = "
+    simulation = { duration = 1, gravity = [0, -10, 0], contacts = 'event-driven' }
+    [body.crate]
+    shape.box.size = [1, 1, 1]
+    mass = 8
+    location = [0, 0.5, 0]
+    material = 'wood'
+    [body.ball]
+    shape.sphere.radius = 0.3
+    mass = 2
+    location = [0, 1.3, 0]
+    [force.pull.constant]
+    force = [10, 0, 0]
+    on = ['crate']
+    [camera]
+    location = [0, 1, 3]
+    look_at = [0, 0.8, 0]
+    ";
+
+in_the_browser! { Scene::of(RESTING), "bodies.mjs":
+    contacts_are_shown_with_their_forces,
+}
+
 /// A scene with a particle that exists from 1 s to 2 s and moves up. The camera looks from the front.
 const PARTICLE: &str = "
     simulation = { duration = 3, frame_rate = 4 }
