@@ -21,7 +21,7 @@ const POLICY =
 /** The page's modules get their data from the worker. */
 const source = {
   name: "source",
-  setup: ({ onResolve }) => onResolve({ filter: /^\.\/source\.js$/ }, () => ({ path: join(here, "web/source.js") })),
+  setup: ({ onResolve }) => onResolve({ filter: /^\.\.?\/source\.js$/ }, () => ({ path: join(here, "web/source.js") })),
 };
 
 rmSync(dist, { recursive: true, force: true });

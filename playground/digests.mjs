@@ -6,7 +6,7 @@ import { createHash } from "node:crypto";
 import { readFileSync, readdirSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
 
-import { unpacked } from "../src/page/web/packed_files.js";
+import { unpacked } from "../src/page/web/run/packed_files.js";
 import { FONTS } from "./web/fonts.js";
 import { Jabuka } from "./web/module.js";
 

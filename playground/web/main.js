@@ -3,7 +3,7 @@
 import { make } from "../../src/page/web/elements.js";
 import "../../src/page/web/main.js";
 import { element } from "../../src/page/web/parts.js";
-import { load, say, sceneText } from "../../src/page/web/scene_text.js";
+import { load, say, sceneText } from "../../src/page/web/text/scene_text.js";
 import { keep, kept } from "./kept_text.js";
 import { linkOf, linked } from "./link.js";
 import { makeShelf } from "./shelf.js";

@@ -2,7 +2,7 @@
 
 import { make } from "../../src/page/web/elements.js";
 import { open, panel } from "../../src/page/web/parts.js";
-import { sceneText, setText } from "../../src/page/web/scene_text.js";
+import { sceneText, setText } from "../../src/page/web/text/scene_text.js";
 import { STEPS } from "./tutorial_steps.js";
 
 /** The time between two checks of the present step, ms. */

@@ -29,11 +29,13 @@
 //!
 //! # The page
 //!
-//! - The page is plain modules and WebGL2, without a build step. The libraries that it needs, such as that of the editor, are bundles made by
-//!   `libraries/build`. They are committed, so that building jabuka needs no npm, and loaded when they are needed.
-//! - The page edits the text of the scene where its host lets it (`web/scene_text.js`). Each text has a version, so that nothing is overwritten
+//! - The page is plain modules and WebGL2, without a build step. In `web`, `run` fetches a run, `picture` draws it, `plots` draws its numbers,
+//!   `body` shows what one wants to know of a body, `text` edits the scene, and `saving` makes files to take along. The libraries that it
+//!   needs, such as that of the editor, are bundles made by `libraries/build`. They are committed, so that building jabuka needs no npm, and
+//!   loaded when they are needed.
+//! - The page edits the text of the scene where its host lets it (`web/text/scene_text.js`). Each text has a version, so that nothing is overwritten
 //!   that another program has written meanwhile.
-//! - A picture that is saved is drawn as one of the page, in another size; what stands over it is painted to a canvas (`web/overlay.js`).
+//! - A picture that is saved is drawn as one of the page, in another size; what stands over it is painted to a canvas (`web/picture/overlay.js`).
 //! - Each run has a unique number. The page requests the frames of a run in pieces of at most 2 MB, and keeps 256 MB of them. If the run has
 //!   been replaced, the answer says so, and the page continues with the run that the session has announced. All that the page remembers of a
 //!   picture belongs to the object of its run, so nothing of an earlier run is drawn.

@@ -9,7 +9,7 @@ import { fileURLToPath } from "node:url";
 const root = join(dirname(fileURLToPath(import.meta.url)), "../..");
 const { buildSync } = createRequire(join(root, "playground/"))("esbuild");
 const names = ["axes", "window", "quantities", "layout", "table", "drawing"];
-const contents = names.map((name) => `export * from "./plot_${name}.js";`).join("\n");
+const contents = names.map((name) => `export * from "./plots/${name}.js";`).join("\n");
 const { outputFiles } = buildSync({ stdin: { contents, resolveDir: join(root, "src/page/web") }, bundle: true, format: "esm", write: false });
 const { QUANTITIES, against, asSvg, curvesOf, firstFrom, followed, layout, moved, nearest, shifted, spread, tableOf, ticks, zoomed } = await import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].text).toString("base64")}`);
 

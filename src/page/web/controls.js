@@ -1,13 +1,13 @@
 // Handles the viewer's input: keys, buttons, pointers.
 
-import { listenToChosen } from "./chosen_body.js";
-import { copyCamera } from "./copied_camera.js";
+import { listenToChosen } from "./body/chosen_body.js";
+import { copyCamera } from "./saving/copied_camera.js";
 import { drawn, element, open, panel, player, plots, redraw, viewpoint } from "./parts.js";
-import { toggleHandles } from "./handles.js";
-import { sceneCamera } from "./picture.js";
-import { renderThis } from "./render.js";
-import { foldWarnings, refresh } from "./runs.js";
-import { prepareSaving } from "./save.js";
+import { toggleHandles } from "./text/handles.js";
+import { sceneCamera } from "./picture/picture.js";
+import { renderThis } from "./saving/render.js";
+import { foldWarnings, refresh } from "./run/runs.js";
+import { prepareSaving } from "./saving/save.js";
 import { CAN_RENDER } from "./source.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 10];

@@ -1,7 +1,7 @@
 // `window.jabuka`: an interface for programs, such as tests, that control the page or read what it shows.
 
 import { drawn, element, open, panel, player, plots, redraw } from "./parts.js";
-import { diagnostics } from "./scene_text.js";
+import { diagnostics } from "./text/scene_text.js";
 
 window.jabuka = {
   get frame() { return player.frame; },

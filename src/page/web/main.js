@@ -3,10 +3,10 @@
 import { listen } from "./controls.js";
 import "./hook.js";
 import { element, open } from "./parts.js";
-import { tick } from "./picture.js";
-import { changed, sayProblem } from "./runs.js";
+import { tick } from "./picture/picture.js";
+import { changed, sayProblem } from "./run/runs.js";
 import { CAN_RENDER, REFUSED, follow } from "./source.js";
-import { listenToText, takeState } from "./scene_text.js";
+import { listenToText, takeState } from "./text/scene_text.js";
 
 function begin() {
   const nothing = element("nothing");

@@ -1,10 +1,10 @@
 // State and objects that the modules of the page share: the elements of the page, and the open runs.
 
-import { Panel } from "./panel.js";
-import { Player } from "./player.js";
-import { Plots } from "./plots.js";
-import { Texts } from "./texts.js";
-import { Viewpoint } from "./viewpoint.js";
+import { Panel } from "./body/panel.js";
+import { Player } from "./run/player.js";
+import { Plots } from "./plots/plots.js";
+import { Texts } from "./picture/texts.js";
+import { Viewpoint } from "./picture/viewpoint.js";
 
 export const element = (id) => document.getElementById(id);
 
