@@ -21,15 +21,21 @@ fn main() -> io::Result<()> {
     let hex: String = digest.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect();
     println!("cargo::rustc-env=JABUKA_BUILD={hex}");
     println!("cargo::rerun-if-changed=scenes");
-    fs::write(Path::new(&variable("OUT_DIR")?).join("scenes.rs"), scenes(&root.join("scenes"))?)
+    let out = PathBuf::from(variable("OUT_DIR")?);
+    fs::write(out.join("scenes.rs"), scenes(&root.join("scenes"))?)?;
+    fs::write(out.join("starters.rs"), scenes(&root.join("scenes/starters"))?)
 }
 
 /// Returns Rust code with the text of each scene in a folder, and the bytes of each file in its subfolders. Scripts do not depend on them.
 fn scenes(folder: &Path) -> io::Result<String> {
     let (mut scenes, mut files) = (String::new(), String::new());
     for path in sorted(folder)? {
+        // The starters are a list of their own.
+        if path.ends_with("starters") {
+            continue;
+        }
         if path.is_dir() {
-            for file in sorted(&path)? {
+            for file in sorted(&path)?.into_iter().filter(|file| file.is_file()) {
                 let name = file.strip_prefix(folder).map_err(io::Error::other)?;
                 files.push_str(&format!("    ({name:?}, include_bytes!({file:?})),\n"));
             }
@@ -39,9 +45,7 @@ fn scenes(folder: &Path) -> io::Result<String> {
             scenes.push_str(&format!("    Example {{ name: {name:?}, text: include_str!({path:?}) }},\n"));
         }
     }
-    Ok(format!(
-        "static SCENES: &[Example] = &[\n{scenes}];\nstatic FILES: &[(&str, &[u8])] = &[\n{files}];\n"
-    ))
+    Ok(format!("Folder {{ scenes: &[\n{scenes}], files: &[\n{files}] }}\n"))
 }
 
 /// Returns the paths in a folder, by name.

@@ -2,7 +2,7 @@
 
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
-import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { copyFileSync, cpSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -61,10 +61,18 @@ for (const file of new Set(topics.flatMap(({ scenes }) => scenes.flatMap(({ file
   mkdirSync(dirname(join(dist, "scenes", file)), { recursive: true });
   copyFileSync(join(root, "scenes", file), join(dist, "scenes", file));
 }
-// What `jabuka new` writes is the first.
-copyFileSync(join(root, "src/starter.toml"), join(dist, "scenes/first.toml"));
-const starter = { name: "first", title: "A first scene", about: "The main keys, with comments: change what you like.", files: [], isNew: true };
-writeFileSync(join(dist, "scenes/shelf.json"), JSON.stringify([{ topic: "A scene of your own", scenes: [starter] }, ...topics]));
+// What `jabuka new` writes comes first.
+const starters = join(root, "scenes/starters");
+const own = readdirSync(starters).filter((file) => file.endsWith(".toml")).map((file) => {
+  const text = readFileSync(join(starters, file), "utf8");
+  writeFileSync(join(dist, "scenes", file), text);
+  const files = readdirSync(join(starters, "data")).map((name) => `data/${name}`).filter((path) => text.includes(path));
+  const [, about, title] = /^# ([^.?]*[.?])[^]*?^title = "(.*)"$/m.exec(text);
+  return { name: file.replace(".toml", ""), title, about, files, isNew: true };
+});
+cpSync(join(starters, "data"), join(dist, "scenes/data"), { recursive: true });
+own.sort((one, other) => (other.name === "first") - (one.name === "first"));
+writeFileSync(join(dist, "scenes/shelf.json"), JSON.stringify([{ topic: "A scene of your own", scenes: own }, ...topics]));
 
 // The licences of what the page contains.
 const { packages } = JSON.parse(readFileSync(join(here, "package-lock.json"), "utf8"));

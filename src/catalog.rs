@@ -74,7 +74,7 @@ fn finishes() -> Vec<NamedLine> {
 
 /// Returns the example scenes, with their titles.
 fn scenes() -> Vec<NamedLine> {
-    Example::all().map(|example| (example.name.into(), example.title().to_owned())).collect()
+    Example::gallery().map(|example| (example.name.into(), example.title().to_owned())).collect()
 }
 
 fn materials() -> Vec<NamedLine> {

@@ -1,4 +1,4 @@
-//! The scenes that `jabuka new` writes: a first scene, and copies of the examples in `scenes/`.
+//! The scenes that `jabuka new` writes: starters of several kinds in `scenes/starters/`, and the gallery in `scenes/`.
 //!
 //! `build.rs` puts the scenes into the program.
 
@@ -7,14 +7,20 @@ use std::path::{Path, PathBuf};
 
 use crate::system::Dir;
 
-// `SCENES`, and `FILES`, which the scenes read: made by `build.rs` from the folder `scenes/`.
-include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
+/// The scenes of a folder, by name, and the files that they read, each with its path relative to the scenes.
+struct Folder {
+    scenes: &'static [Example],
+    files: &'static [(&'static str, &'static [u8])],
+}
 
-/// A scene that shows the main keys, with comments.
-pub const STARTER: &str = include_str!("starter.toml");
+static GALLERY: Folder = include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
+static STARTERS: Folder = include!(concat!(env!("OUT_DIR"), "/starters.rs"));
 
-/// A scene of the folder `scenes/`.
-#[derive(Debug)]
+/// The name of the starter that shows the main keys.
+pub const FIRST: &str = "first";
+
+/// A scene to start from.
+#[derive(Debug, PartialEq, Eq)]
 pub struct Example {
     /// The name of its file, without `.toml`.
     pub name: &'static str,
@@ -23,9 +29,14 @@ pub struct Example {
 }
 
 impl Example {
-    /// Returns all examples, by name.
-    pub fn all() -> impl Iterator<Item = &'static Example> {
-        SCENES.iter()
+    /// Returns the scenes of the gallery, by name.
+    pub fn gallery() -> impl Iterator<Item = &'static Example> {
+        GALLERY.scenes.iter()
+    }
+
+    /// Returns short scenes with comments, one for each kind of scene, by name.
+    pub fn starters() -> impl Iterator<Item = &'static Example> {
+        STARTERS.scenes.iter()
     }
 
     /// Returns the title of the scene. If the text has none, it is empty.
@@ -34,34 +45,25 @@ impl Example {
         line.map_or("", |line| line.trim_end_matches('"'))
     }
 
+    /// Returns the first sentence of the comment at its beginning.
+    pub fn about(&self) -> &'static str {
+        let line = self.text.lines().next().unwrap_or_default().trim_start_matches("# ");
+        line.find(['.', '?']).map_or(line, |end| &line[..=end])
+    }
+
     /// Returns the files that the scene reads, each with its path relative to the scene.
     fn files(&self) -> impl Iterator<Item = &'static (&'static str, &'static [u8])> {
+        let folder = if STARTERS.scenes.contains(self) { &STARTERS } else { &GALLERY };
         let text = self.text;
-        FILES.iter().filter(move |(name, _)| text.contains(&format!("\"{name}\"")))
+        folder.files.iter().filter(move |(name, _)| text.contains(&format!("\"{name}\"")))
     }
 }
 
-/// Writes the first scene into a new file. Returns its path: the given one, with `.toml` added if it is missing.
-///
-/// # Errors
-/// If the file exists already, or cannot be written. The error comes with the given path.
-pub fn write_starter(path: &Path) -> Result<PathBuf, (PathBuf, io::Error)> {
-    write_all(path, STARTER, [])
-}
-
-/// Writes an example into a new file, and beside it the files that it reads. Returns its path, as [`write_starter`] does.
+/// Writes a scene into a new file, and beside it the files that it reads. Returns its path: the given one, with `.toml` added if it is missing.
 ///
 /// # Errors
 /// If a file exists already with other content, or cannot be written. The error comes with the path of the file.
 pub fn write_scene(path: &Path, example: &Example) -> Result<PathBuf, (PathBuf, io::Error)> {
-    write_all(path, example.text, example.files())
-}
-
-fn write_all(
-    path: &Path,
-    text: &str,
-    files: impl IntoIterator<Item = &'static (&'static str, &'static [u8])>,
-) -> Result<PathBuf, (PathBuf, io::Error)> {
     let mut scene = path.to_owned();
     if scene.extension().is_none_or(|extension| extension != "toml") {
         scene.as_mut_os_string().push(".toml");
@@ -69,10 +71,10 @@ fn write_all(
     let failed = |error| (path.to_owned(), error);
     let (folder, name) = Dir::of_file(&scene, false).map_err(|error| failed(error.into()))?;
     let mut file = folder.create_new(&name).map_err(|error| failed(error.into()))?;
-    let written = files.into_iter().try_for_each(|(name, bytes)| {
+    let written = example.files().try_for_each(|(name, bytes)| {
         write_beside(&folder, name, bytes).map_err(|error| (scene.with_file_name(name), error))
     });
-    written.and_then(|()| file.write_all(text.as_bytes()).map_err(failed)).inspect_err(|_| {
+    written.and_then(|()| file.write_all(example.text.as_bytes()).map_err(failed)).inspect_err(|_| {
         // Remove the incomplete file. If removing fails, too, the error of writing is reported anyway.
         let _ = folder.remove_file(&name);
     })?;

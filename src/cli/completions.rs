@@ -37,7 +37,11 @@ fn command() -> clap::Command {
     let lists = [
         ("list", "category", CATEGORIES.iter().map(|category| category.name.to_owned()).collect()),
         ("explain", "code", codes.chain(keys).collect()),
-        ("new", "like", Example::all().map(|example| example.name.to_owned()).collect()),
+        (
+            "new",
+            "like",
+            Example::starters().chain(Example::gallery()).map(|example| example.name.to_owned()).collect(),
+        ),
         ("man", "command", commands),
     ];
     lists.into_iter().fold(whole, |whole, (command, argument, values): (_, _, Vec<String>)| {

@@ -4,7 +4,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::diagnostic::{nearest, visible, visible_path};
-use crate::starter::{Example, write_scene, write_starter};
+use crate::starter::{Example, FIRST, write_scene};
 
 use super::{Failure, shell, terminal};
 
@@ -12,21 +12,25 @@ use super::{Failure, shell, terminal};
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// The scene file to create, which must not exist; `.toml` is added if it is missing
-    name: PathBuf,
-    /// Start from this example, such as `newtons_cradle`: see `jabuka list scenes`
-    #[arg(long, value_name = "SCENE")]
-    like: Option<String>,
+    #[arg(required_unless_present = "list")]
+    name: Option<PathBuf>,
+    /// Start from this scene: one of those that `--list` shows, or of the gallery, such as `newtons_cradle`
+    #[arg(long, value_name = "SCENE", default_value = FIRST)]
+    like: String,
+    /// List the scenes to start from, one for each kind
+    #[arg(long, conflicts_with_all = ["name", "like"])]
+    list: bool,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let example = arguments.like.as_deref().map(example).transpose()?;
-    let written = match example {
-        Some(example) => write_scene(&arguments.name, example),
-        None => write_starter(&arguments.name),
+    let Some(given) = &arguments.name else {
+        list();
+        return Ok(());
     };
+    let written = write_scene(given, example(&arguments.like)?);
     let path = written.map_err(|(path, error)| {
         let name = visible_path(&path);
-        let what = if path == arguments.name { "scene" } else { "file" };
+        let what = if path == *given { "scene" } else { "file" };
         terminal::error(&match error.kind() {
             ErrorKind::AlreadyExists => format!("error: the {what} `{name}` is there already\n"),
             _ => format!("error: cannot write the {what} `{name}`: {error}\n"),
@@ -41,14 +45,25 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Finds the example that the user names, also by its path in the project: `scenes/atom.toml`.
+fn list() {
+    let width = Example::starters().map(|starter| starter.name.len()).max().unwrap_or_default();
+    for starter in Example::starters() {
+        terminal::result(&format!("{:width$}  {}\n", starter.name, starter.about()));
+    }
+    terminal::result(
+        "`jabuka new NAME --like pile` starts from one of these; `jabuka list scenes` shows the gallery\n",
+    );
+}
+
+/// Finds the scene that the user names, also by its path in the project: `scenes/atom.toml`.
 fn example(name: &str) -> Result<&'static Example, Failure> {
     let stem =
         Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    if let Some(example) = Example::all().find(|example| example.name == stem) {
+    let all = || Example::starters().chain(Example::gallery());
+    if let Some(example) = all().find(|example| example.name == stem) {
         return Ok(example);
     }
-    let names = || Example::all().map(|example| example.name);
+    let names = || all().map(|example| example.name);
     let holding: Vec<String> = names()
         .filter(|example| !stem.is_empty() && example.contains(&*stem))
         .map(|name| format!("`{name}`"))
@@ -59,7 +74,7 @@ fn example(name: &str) -> Result<&'static Example, Failure> {
     };
     let meant = meant.map_or_else(String::new, |meant| format!("; did you mean {meant}?"));
     terminal::error(&format!(
-        "error: there is no example scene `{}`{meant}\n`jabuka list scenes` shows all\n",
+        "error: there is no scene `{}` to start from{meant}\n`jabuka new --list` and `jabuka list scenes` show all\n",
         visible(name)
     ));
     Err(Failure::Errors)

@@ -17,16 +17,18 @@ const FONT_TYPE: &str = "font/ttf";
 
 /// Lists files of the folder `web`, by their content types, with their paths on the page and their contents. Other files come first.
 macro_rules! files {
-    ($($other:expr,)* $($kind:ident: $($path:literal)*;)*) => {
+    ([$($other:expr,)*] $($kind:ident: $($path:literal)*;)*) => {
         &[$($other,)* $($((concat!("/", $path), $kind, include_bytes!(concat!("web/", $path))),)*)*]
     };
 }
 
 /// The files of the page: path, content type and content of each.
 pub const FILES: &[(&str, &str, &[u8])] = files! {
-    ("/", HTML_TYPE, include_bytes!("web/index.html")),
-    ("/DejaVuSans.ttf", FONT_TYPE, font::BUILT_IN[0]),
-    ("/DejaVuSans-Bold.ttf", FONT_TYPE, font::BUILT_IN[1]),
+    [
+        ("/", HTML_TYPE, include_bytes!("web/index.html")),
+        ("/DejaVuSans.ttf", FONT_TYPE, font::BUILT_IN[0]),
+        ("/DejaVuSans-Bold.ttf", FONT_TYPE, font::BUILT_IN[1]),
+    ]
     CSS_TYPE: "style.css";
     SVG_TYPE: "icon.svg";
     TEXT_TYPE: "libraries/licences.txt";

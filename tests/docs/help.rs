@@ -239,10 +239,10 @@ fn a_new_scene_can_be_like_any_example() {
     for named in ["scenes/atom.toml", "atom.toml"] {
         assert!(new(&[&format!("copy of {}", named.replace('/', "_")), "--like", named]).status.success());
     }
-    let output = new(&["mine", "--like", "pendulum"]);
+    let output = new(&["mine", "--like", "domino"]);
     assert_eq!(output.status.code(), Some(1));
-    let said = "error: there is no example scene `pendulum`; did you mean `double_pendulum` or `pendulum_wave`?\n\
-                `jabuka list scenes` shows all\n";
+    let said = "error: there is no scene `domino` to start from; did you mean `domino_spiral` or `dominoes`?\n\
+                `jabuka new --list` and `jabuka list scenes` show all\n";
     assert_eq!(stderr(&output), said);
     assert!(stderr(&new(&["mine", "--like", "crnak"])).contains("; did you mean `crank`?\n"));
     assert!(!folder.path().join("mine.toml").exists());
@@ -254,6 +254,39 @@ fn a_new_scene_can_be_like_any_example() {
     assert_eq!(stderr(&output), "error: the file `meshes/hourglass.obj` is there already\n");
     assert!(!folder.path().join("sand.toml").exists());
     assert_eq!(fs::read(folder.path().join("meshes/hourglass.obj")).unwrap(), b"mine");
+}
+
+/// Each starter is a scene without warnings, also of its run.
+#[test]
+fn new_has_a_scene_for_each_kind() {
+    let folder = tempfile::tempdir().unwrap();
+    let new =
+        |arguments: &[&str]| jabuka().current_dir(folder.path()).arg("new").args(arguments).output().unwrap();
+    let listed = stdout(&new(&["--list"]));
+    insta::assert_snapshot!(listed, @r"
+    data      Data: a motion from a table, and beside it the same throw computed.
+    first     A first scene: a ball and a crate are thrown, a ball hangs from a spring, and another swings on a rod.
+    machine   A machine: a motor turns a crank, and a rod moves a piston to and fro.
+    orbit     An orbit: a planet around a star.
+    pendulum  A pendulum: how does its period depend on its length, and on how far it swings?
+    pile      A pile: a wall of bricks, and a ball that hits it.
+    throw     A throw: at which angle does the ball fly farthest?
+    `jabuka new NAME --like pile` starts from one of these; `jabuka list scenes` shows the gallery
+    ");
+    for name in listed.lines().filter_map(|line| line.split_once("  ")).map(|(name, _)| name.trim()) {
+        let output = new(&[name, "--like", name]);
+        assert!(output.status.success(), "{}", stderr(&output));
+        let checked =
+            jabuka().current_dir(folder.path()).args(["check", "--run", &format!("{name}.toml")]).output();
+        let checked = checked.unwrap();
+        assert_eq!((&*stdout(&checked), &*stderr(&checked)), (&*format!("{name}.toml: ok\n"), ""));
+    }
+    let output = new(&["other"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    assert_eq!(read("other.toml"), read("first.toml"));
+    assert_eq!(new(&[]).status.code(), Some(2));
+    assert_eq!(new(&["mine", "--list"]).status.code(), Some(2));
 }
 
 #[test]
