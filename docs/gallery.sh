@@ -20,11 +20,11 @@ trap 'rm -r "$folder"' EXIT
 count=0
 for entry in $moments; do
     scene=${entry%%:*}
-    picture=$(printf '%s/%03d.png' "$folder" "$count")
-    cargo run --quiet --release -- still "scenes/$scene.toml" --time "${entry##*:}" --size 480x270 -o "$picture" >/dev/null
-    ffmpeg -v error -y -i "$picture" -vf scale=320:180:flags=lanczos -q:v 3 "docs/gallery/$scene.jpg"
+    cargo run --quiet --release -- still "scenes/$scene.toml" --time "${entry##*:}" --size 480x270 -o "$folder/still.png" >/dev/null
+    ffmpeg -v error -y -i "$folder/still.png" -vf scale=320:180:flags=lanczos -q:v 3 "docs/gallery/$scene.jpg"
+    ln -s "$PWD/docs/gallery/$scene.jpg" "$(printf '%s/%03d.jpg' "$folder" "$count")"
     count=$((count + 1))
 done
 tiles="scale=256:144:flags=lanczos,tile=6x$(((count + 5) / 6)):padding=4:margin=2:color=white"
-ffmpeg -v error -y -i "$folder/%03d.png" -frames:v 1 \
+ffmpeg -v error -y -i "$folder/%03d.jpg" -frames:v 1 \
     -filter_complex "$tiles,split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=dither=floyd_steinberg" docs/gallery.png
