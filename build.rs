@@ -36,7 +36,9 @@ fn scenes(folder: &Path) -> io::Result<String> {
         }
         if path.is_dir() {
             for file in sorted(&path)?.into_iter().filter(|file| file.is_file()) {
-                let name = file.strip_prefix(folder).map_err(io::Error::other)?;
+                // Scenes name files with `/` on every system.
+                let name =
+                    file.strip_prefix(folder).map_err(io::Error::other)?.to_string_lossy().replace('\\', "/");
                 files.push_str(&format!("    ({name:?}, include_bytes!({file:?})),\n"));
             }
         } else if let Some(name) =

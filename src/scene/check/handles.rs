@@ -1,6 +1,6 @@
 //! Finds the vectors that a user can drag in the picture.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 
@@ -53,12 +53,12 @@ pub(super) fn read(root: &View<'_>, bodies: &[Body], sources: &Sources) -> Vec<H
     for key in [&camera::LOCATION, &camera::LOOK_AT] {
         add(format!("camera.{}", key.spec.name), main.node(key));
     }
-    handles.extend(without_shared(of_bodies(root, bodies, sources)));
-    handles
+    handles.extend(of_bodies(root, bodies, sources));
+    without_shared(handles, &of_copies(root, sources))
 }
 
-/// Leaves out the handles whose numbers are those of another handle, too.
-fn without_shared(mut handles: Vec<Handle>) -> Vec<Handle> {
+/// Leaves out the handles whose numbers are those of another handle or of copies, too.
+fn without_shared(mut handles: Vec<Handle>, of_copies: &HashSet<[Span; 3]>) -> Vec<Handle> {
     let given = |handle: &Handle| match handle.place {
         HandlePlace::Given(spans) => Some(spans),
         HandlePlace::Missing(_) => None,
@@ -67,8 +67,22 @@ fn without_shared(mut handles: Vec<Handle>) -> Vec<Handle> {
     for spans in handles.iter().filter_map(given) {
         *uses.entry(spans).or_default() += 1;
     }
-    handles.retain(|handle| given(handle).is_none_or(|spans| uses[&spans] == 1));
     handles
+        .retain(|handle| given(handle).is_none_or(|spans| uses[&spans] == 1 && !of_copies.contains(&spans)));
+    handles
+}
+
+/// Returns where the vectors of copied bodies stand in the text. All copies of a body have the same, so the first is enough.
+fn of_copies(root: &View<'_>, sources: &Sources) -> HashSet<[Span; 3]> {
+    let is_first = |name: &str| is_copy(name) && name.split('[').skip(1).all(|index| index == "0]");
+    let mut found = HashSet::new();
+    for table in root.bodies().filter(|table| is_first(table.name())) {
+        table.look(|view| {
+            let nodes = [&body::LOCATION, &body::VELOCITY].into_iter().filter_map(|key| view.node(key));
+            found.extend(nodes.filter_map(|node| Some(vector(node, sources)?.1)));
+        });
+    }
+    found
 }
 
 fn of_bodies(root: &View<'_>, bodies: &[Body], sources: &Sources) -> Vec<Handle> {
@@ -136,6 +150,11 @@ mod tests {
         assert_eq!(of(defaults), ["body.a.location", "body.a.velocity"]);
         let other = "[body.b]\nshape.sphere.radius = 0.1\nlocation = [5, 0, 0]\n";
         assert_eq!(of(&format!("{defaults}{other}")), ["body.a.location", "body.b.location"]);
+        let copied = "[body.row]\nshape.sphere.radius = 0.1\nrepeat = 5\nlocation = [\"5 + i\", 0, 0]\n";
+        assert_eq!(of(&format!("{defaults}{copied}")), ["body.a.location"]);
+        let lamps = "[body.a]\nshape.sphere.radius = 0.1\nvelocity = [1, 0, 0]\nlocation = [1, 0, 0]\n\
+                     [defaults.light]\npoint.location = [1, 5, 0]\n[light.one]\ncolor = 'red'\n[light.two]\ncolor = 'blue'\n";
+        assert_eq!(of(lamps), ["body.a.location", "body.a.velocity"]);
     }
 
     #[test]

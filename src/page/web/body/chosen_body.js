@@ -65,7 +65,7 @@ export function showChosen(lines, run, at, position) {
   if (isWanted("contacts")) {
     const touching = contacts.get(every * Math.round(position / every)) ?? [];
     // Bodies would hide the points at which they touch.
-    drawContacts(lines.inFront, touching, (MOST_ARROW * size) / (large.contacts ?? Infinity), size);
+    drawContacts(lines.inFront, touching, large.contacts ?? Infinity, size);
   }
   for (const [name, { at, color }] of Object.entries(ARROWS)) {
     const value = Array.from(numbers.subarray(sample + at, sample + at + 3));

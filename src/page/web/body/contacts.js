@@ -5,8 +5,10 @@ import { add, length, times } from "../math.js";
 
 /** The number of values of a contact in the data of a run. */
 const NUMBERS = 11;
-/** The radius of the ball at a point of contact, that of an arrow, and the shortest arrow, as parts of the size of the scene. */
-const [POINT, SHAFT, SHORTEST] = [0.009, 0.005, 0.01];
+/** The radius of the ball at a point of contact, and that of an arrow, as parts of the size of the scene. */
+const [POINT, SHAFT] = [0.009, 0.005];
+/** The length of the arrow of a large force, the greatest length of an arrow, and the least, as parts of the size of the scene. */
+const [ARROW, MOST_ARROW, LEAST_ARROW] = [0.3, 0.5, 0.01];
 const POINT_COLOR = [0.95, 0.8, 0.1];
 /** The colors of the arrows of normal forces and of friction. */
 const COLORS = { normal: [0.1, 0.55, 0.2], friction: [0.7, 0.15, 0.6] };
@@ -39,13 +41,15 @@ export function touches(contacts) {
 }
 
 /** Adds the contacts of a frame: a ball at each point, and for each other body an arrow of its normal force and one of its friction. */
-export function drawContacts(lines, contacts, metersPerNewton, size) {
+export function drawContacts(lines, contacts, largeForce, size) {
   for (const { place } of contacts) thing(lines, { form: "ball", at: place, radius: POINT * size, color: POINT_COLOR });
   for (const touch of touches(contacts)) {
     for (const [name, color] of Object.entries(COLORS)) {
-      const along = times(touch[name], metersPerNewton);
-      if (length(along) < SHORTEST * size) continue;
-      thing(lines, { form: "arrow", from: touch.place, to: add(touch.place, along), radius: SHAFT * size, color });
+      const force = touch[name];
+      const long = Math.min((ARROW * length(force)) / largeForce, MOST_ARROW);
+      if (!(long > LEAST_ARROW)) continue;
+      const to = add(touch.place, times(force, (long * size) / length(force)));
+      thing(lines, { form: "arrow", from: touch.place, to, radius: SHAFT * size, color });
     }
   }
 }

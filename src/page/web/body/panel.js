@@ -47,7 +47,9 @@ export class Panel {
       this.asking = true;
       try {
         const frames = [body, number * BLOCK, (number + 1) * BLOCK];
-        const [block, contacts] = await Promise.all([run.series(...frames), run.contacts(...frames)]);
+        const block = await run.series(...frames);
+        // Asked for later, they are known at least as far as the series.
+        const contacts = await run.contacts(...frames);
         if (run === this.run && body === this.body) this.blocks.set(number, { block, contacts: contactsByFrame(contacts) });
       } catch (error) {
         if (error.status !== 404) console.warn(error.message);
