@@ -4,6 +4,8 @@ use std::io::{Read as _, Write as _};
 use std::net::{IpAddr, SocketAddr, TcpStream, UdpSocket};
 use std::time::Duration;
 
+use jabuka::page::FILES;
+
 use crate::http::{Answer, ask, get};
 use crate::server::{Scene, Server};
 use crate::support::root;
@@ -22,10 +24,10 @@ fn server() -> Server {
 /// Requests as pairs of method and path.
 type Asked = Vec<(&'static str, String)>;
 
-/// Returns the paths of the server's interface and of its page, read from its source code, with a run and a body inserted.
+/// Returns the paths of the server's interface, read from its source code, with a run and a body inserted, and those of the files of its page.
 fn paths() -> (Asked, Asked) {
     let read = |file: &str| std::fs::read_to_string(root().join("src").join(file)).unwrap();
-    let (routes, answers, page) = (read("preview/routes.rs"), read("page/answers.rs"), read("page/files.rs"));
+    let (routes, answers) = (read("preview/routes.rs"), read("page/answers.rs"));
     let of_api = routes.split(".route(\"").skip(1).map(|rest| {
         let (path, after) = rest.split_once('"').unwrap();
         (if after.contains("post(") && after.find("post(") < after.find('\n') { "POST" } else { "GET" }, path)
@@ -43,12 +45,10 @@ fn paths() -> (Asked, Asked) {
         })
         .filter(|(_, path)| !path.ends_with('/'))
         .collect();
-    let files =
-        page.split("    (\"/").skip(1).map(|rest| ("GET", format!("/{}", rest.split('"').next().unwrap())));
-    let files: Vec<_> = files.collect();
+    let files: Vec<_> = FILES.iter().map(|(path, ..)| ("GET", (*path).to_owned())).collect();
     assert!(api.len() >= 12 && api.iter().all(|(_, path)| path.starts_with("/api/")), "{api:?}");
     assert!(api.iter().filter(|(method, _)| *method == "POST").count() == 4, "{api:?}");
-    assert!(files.len() >= 10, "{files:?}");
+    assert!(files.len() >= 60, "{files:?}");
     (api, files)
 }
 
