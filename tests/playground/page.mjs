@@ -637,7 +637,10 @@ look_at = [0, 3, 0]
     const page = await openMenu(all, 12);
     const size = page.locator("#picture-size");
     const shown = await page.locator("#film").boundingBox();
-    const letters = await page.locator("#texts span").boundingBox();
+    // The page may be drawing, which replaces its letters.
+    let letters;
+    const limit = performance.now() + LONG;
+    while (!(letters = await page.locator("#texts span").boundingBox())) assert.ok(performance.now() < limit, "there are no letters");
     for (const [value, width, height] of [["shown", Math.round(shown.width), Math.round(shown.height)], ["1280 720", 1280, 720], ["1920 1080", 1920, 1080]]) {
       await size.selectOption(value);
       const png = await saved(page, "Save picture", "ball_12.png");

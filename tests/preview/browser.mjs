@@ -88,7 +88,8 @@ export async function until(page, is, argument, long = LONG) {
     const end = performance.now() + ${long};
     while (!(${is})(window.jabuka, ${JSON.stringify(argument)})) {
       if (performance.now() > end) return false;
-      await new Promise(requestAnimationFrame);
+      // A page that draws nothing more must not keep the limit from being noticed.
+      await new Promise((next) => (requestAnimationFrame(next), setTimeout(next, 100)));
     }
     return true;
   })()`);
@@ -109,7 +110,10 @@ export async function saved(page, name, deed) {
   if (!IS_FIREFOX) {
     const [download] = await Promise.all([page.waitForEvent("download"), deed()]);
     assert.equal(download.suggestedFilename(), name);
-    return readFileSync(await download.path());
+    const late = setTimeout(() => assert.fail(`${name} is not saved`), LONG);
+    const file = await download.path();
+    clearTimeout(late);
+    return readFileSync(file);
   }
   await deed();
   const file = join(DOWNLOADS, name);
