@@ -6,8 +6,8 @@ import { join } from "node:path";
 
 import { DOWNLOADS, IS_FIREFOX, launch } from "./launch.mjs";
 
-/** A warning of the software WebGL driver that reading a pixel is slow. */
-const OF_DRIVER = /GL Driver Message .* GPU stall due to ReadPixels/;
+/** Messages that are no errors: the software WebGL driver says that reading a pixel is slow, and Firefox that it left a page while a font was loading. */
+const HARMLESS = [/GL Driver Message .* GPU stall due to ReadPixels/, /^downloadable font: download failed .* status=2152398850 /];
 
 /** The time limit for each wait, ms. It is long enough for a busy machine. */
 export const LONG = 240_000;
@@ -19,7 +19,7 @@ export async function newPage(browser, { size = { width: 900, height: 640 }, may
   page.setDefaultTimeout(LONG);
   page.wrong = [];
   page.asked = [];
-  const note = (text) => [OF_DRIVER, ...may].some((known) => known.test(text)) || page.wrong.push(text);
+  const note = (text) => [...HARMLESS, ...may].some((known) => known.test(text)) || page.wrong.push(text);
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && note(message.text()));
   page.on("pageerror", (error) => note(String(error)));
   page.on("dialog", (dialog) => (note(`a dialog: ${dialog.message()}`), dialog.dismiss()));
@@ -45,6 +45,11 @@ export async function open(page, address) {
  */
 export async function tests(all) {
   const [name, address, scene] = process.argv.slice(2);
+  // A browser that no longer answers has no limits of its own.
+  const late = setTimeout(() => {
+    console.error(`${name} has not ended after ${(3 * LONG) / 1000} s`);
+    process.exit(1);
+  }, 3 * LONG);
   const browser = await launch();
   const pages = [];
   // Tests with several pages, or of the time before the first frame, open their pages themselves.
@@ -78,6 +83,7 @@ export async function tests(all) {
     throw error;
   } finally {
     for (const each of [browser, ...others]) await each.close();
+    clearTimeout(late);
   }
 }
 
