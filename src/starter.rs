@@ -17,7 +17,7 @@ static GALLERY: Folder = include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
 static STARTERS: Folder = include!(concat!(env!("OUT_DIR"), "/starters.rs"));
 
 /// The name of the starter that shows the main keys.
-pub const FIRST: &str = "first";
+pub const FIRST_STARTER: &str = "first";
 
 /// A scene to start from.
 #[derive(Debug, PartialEq, Eq)]

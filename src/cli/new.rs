@@ -4,7 +4,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::diagnostic::{nearest, visible, visible_path};
-use crate::starter::{Example, FIRST, write_scene};
+use crate::starter::{Example, FIRST_STARTER, write_scene};
 
 use super::{Failure, shell, terminal};
 
@@ -14,8 +14,8 @@ pub(super) struct Arguments {
     /// The scene file to create, which must not exist; `.toml` is added if it is missing
     #[arg(required_unless_present = "list")]
     name: Option<PathBuf>,
-    /// Start from this scene: one of those that `--list` shows, or of the gallery, such as `newtons_cradle`
-    #[arg(long, value_name = "SCENE", default_value = FIRST)]
+    /// Start from this scene: one that `--list` shows, or one of the gallery, such as `newtons_cradle`
+    #[arg(long, value_name = "SCENE", default_value = FIRST_STARTER)]
     like: String,
     /// List the scenes to start from, one for each kind
     #[arg(long, conflicts_with_all = ["name", "like"])]

@@ -30,9 +30,8 @@
 //! # The page
 //!
 //! - The page is plain modules and WebGL2, without a build step. In `web`, `run` fetches a run, `picture` draws it, `plots` draws its numbers,
-//!   `body` shows what one wants to know of a body, `text` edits the scene, and `saving` makes files to take along. The libraries that it
-//!   needs, such as that of the editor, are bundles made by `libraries/build`. They are committed, so that building jabuka needs no npm, and
-//!   loaded when they are needed.
+//!   `body` shows what one wants to know of a body, `text` edits the scene, and `saving` makes files to take along. `libraries/build`
+//!   bundles its libraries, such as the editor. The bundles are committed, so building jabuka needs no npm. The page loads each when it needs it.
 //! - The page edits the text of the scene where its host lets it (`web/text/scene_text.js`). Each text has a version, so that nothing is overwritten
 //!   that another program has written meanwhile.
 //! - A picture that is saved is drawn as one of the page, in another size; what stands over it is painted to a canvas (`web/picture/overlay.js`).

@@ -18,8 +18,8 @@ const SCENES: &[&str] = &[
     "house_of_cards",
 ];
 
-/// What jabuka makes of the gallery: see `tests/scenes/digests.rs`.
-const LIST: &str = include_str!("../scenes/snapshots/scenes__digests__gallery.snap");
+/// The digests of what jabuka makes of each scene of the gallery: see `tests/scenes/digests.rs`.
+const GALLERY_DIGESTS: &str = include_str!("../scenes/snapshots/scenes__digests__gallery.snap");
 
 #[test]
 fn files_have_the_bytes_of_the_program() {
@@ -32,7 +32,7 @@ fn files_have_the_bytes_of_the_program() {
     assert!(output.status.success(), "{}", stderr(&output));
     let of = |name: &&str| {
         let start = format!("{name} ");
-        LIST.lines().filter(move |line| line.starts_with(&start))
+        GALLERY_DIGESTS.lines().filter(move |line| line.starts_with(&start))
     };
     let expected: Vec<&str> = SCENES.iter().flat_map(of).collect();
     assert_eq!(stdout(&output).lines().collect::<Vec<_>>(), expected);

@@ -1,7 +1,7 @@
 //! What jabuka makes of every scene of the gallery has the same bytes on every machine.
 //!
-//! The snapshot is the one list against which all machines are held: this test makes it on the machine where it runs; `tests/everywhere` compares
-//! it with the programs for other systems, and with the module for browsers.
+//! The snapshot is the list of the right digests. This test makes the list again on its own machine. `tests/everywhere` does the same with the
+//! programs for other systems, and with the module for browsers.
 
 use std::fmt::Write as _;
 use std::fs;

@@ -18,8 +18,8 @@ use crate::scene::{Body, Handle, HandleKind, HandlePlace};
 
 /// Returns the handles of a scene: locations and velocities of bodies, points of joints, springs, lights and cameras.
 ///
-/// Copies made by `repeat` have none, and neither have several bodies that get a vector from the same defaults: their numbers stand in the
-/// text only once. Vectors of formulas have none either.
+/// The numbers of a handle belong to one thing alone. So copies made by `repeat` have no handles, and neither do defaults that several bodies
+/// share. Vectors of formulas have none either.
 pub(super) fn read(root: &View<'_>, bodies: &[Body], sources: &Sources) -> Vec<Handle> {
     let mut handles = Vec::new();
     let mut add = |key: String, node: Option<&Node>| {

@@ -40,7 +40,7 @@ in_the_browser! { Scene::of(COMING), "bodies.mjs":
 }
 
 /// A crate with a ball on it, at rest on the ground. A force pulls the crate, which friction holds.
-const RESTING: &str = "
+const CRATE_AT_REST: &str = "
     simulation = { duration = 1, gravity = [0, -10, 0], contacts = 'event-driven' }
     [body.crate]
     shape.box.size = [1, 1, 1]
@@ -59,7 +59,7 @@ const RESTING: &str = "
     look_at = [0, 0.8, 0]
     ";
 
-in_the_browser! { Scene::of(RESTING), "bodies.mjs":
+in_the_browser! { Scene::of(CRATE_AT_REST), "bodies.mjs":
     contacts_are_shown_with_their_forces,
 }
 
