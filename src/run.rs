@@ -103,11 +103,12 @@ impl<'a> Run<'a> {
         });
         let plan = self.emitter.plan();
         let small = plan.too_small().map(|largest| too_small(self.scene(), plan, largest));
+        let gone = left_out(self.scene(), plan.left_out());
         let grid = plan.too_fine_grid().map(grid_too_fine);
         let of_motion = motion_warnings::all(self.scene(), self.survey());
         let not_drawn = plan.not_drawn().iter().map(not_drawn::warning);
         let plots = plan.unseen_plots().iter().map(|unseen| not_drawn::of_plot(self.scene(), unseen));
-        of_motion.into_iter().chain(thin).chain(small).chain(grid).chain(not_drawn).chain(plots).collect()
+        of_motion.into_iter().chain(thin).chain(small).chain(gone).chain(grid).chain(not_drawn).chain(plots).collect()
     }
 
     /// Returns all warnings about the simulation and its images, with the texts of the scene that they point into.
@@ -191,10 +192,30 @@ fn too_small(scene: &Scene, plan: &Plan, largest: &Largest) -> Diagnostic {
     };
     let is_followed = scene.camera.motion.follow.is_some() || plan.part() == FramedPart::Along;
     let follow = format!("`follow = {{ body = \"{name}\" }}` in [camera] goes along with it");
-    let others = "`look.scale` draws it larger, `trail = true` shows its way; or shorten `simulation.duration`, or give \
-                  a `[camera]`";
-    let help = if is_followed { others.to_owned() } else { format!("{follow}; {others}") };
+    let has_trail = scene.bodies.iter().any(|body| *body.name == **name && body.showing.trail.is_some());
+    let trail = if has_trail { "" } else { ", `trail = true` shows its way" };
+    let others = format!(
+        "`look.scale = {}` draws it larger{trail}; or shorten `simulation.duration`, or give a `[camera]`",
+        rounded(largest.fit)
+    );
+    let help = if is_followed { others } else { format!("{follow}; {others}") };
     Diagnostic::warning(Code::TooSmall, message).help(help)
+}
+
+/// Returns the warning that bodies fly out of the picture. `left_out` are their indices. `None` if there are none.
+fn left_out(scene: &Scene, left_out: &[usize]) -> Option<Diagnostic> {
+    let (first, others) = left_out.split_first()?;
+    let name = &scene.bodies[*first].name;
+    let who = match others.len() {
+        0 => format!("`{name}` leaves"),
+        1 => format!("`{name}` and 1 other leave"),
+        others => format!("`{name}` and {others} others leave"),
+    };
+    let message = format!("{who} the picture: the camera shows the bodies that stay together");
+    let help = format!(
+        "`auto = \"whole\"` in [camera] shows all bodies, and `follow = {{ body = \"{name}\" }}` goes along with this one"
+    );
+    Some(Diagnostic::warning(Code::NotDrawn, message).help(help))
 }
 
 /// Returns the warning that the grid is drawn with wider spacing than the scene gives. The arguments are the given and the drawn spacing,

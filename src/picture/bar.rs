@@ -9,7 +9,7 @@ use super::occupancy::Rectangle;
 use super::plots;
 use super::screen::Screen;
 use super::stage::Scenery;
-use super::text::{MARGIN, Text, Vertical, across_free, is_top, least_height};
+use super::text::{MARGIN, Text, Vertical, across_free, is_top, usual_height};
 use crate::decimal::round_below;
 use crate::font::Typeface;
 use crate::scene::{Color, DecimalSign, ScaleBar, Scene};
@@ -56,9 +56,8 @@ pub(super) struct ScaleBars {
 
 impl ScaleBars {
     pub(super) fn new(scene: &Scene, bar: ScaleBar, scenery: &Scenery, ink: Color) -> ScaleBars {
-        let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
         let middle = (scenery.bounds.min + scenery.bounds.max) / 2.0;
-        let height = (SIZE * 2.0 * aspect).max(least_height(LEAST_PIXELS, scene.output));
+        let height = usual_height(SIZE, LEAST_PIXELS, scene.output);
         ScaleBars { bar, middle, height, ink, free: plots::free(scene), sign: scene.output.decimal }
     }
 

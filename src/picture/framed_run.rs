@@ -40,6 +40,8 @@ pub(super) struct FramedRun {
     pub(super) part: FramedPart,
     /// The track of a camera that goes along with the motion.
     pub(super) track: Option<Arc<Track>>,
+    /// The indices of the bodies that fly out of the picture: outliers of the run.
+    pub(super) left_out: Vec<usize>,
 }
 
 /// The part of a run that a camera frames.
@@ -72,11 +74,22 @@ impl FramedRun {
                 shown: BOUNDS_OF_NOTHING,
                 arrows,
             };
-            return FramedRun { span, whole: BOUNDS_OF_NOTHING, part: FramedPart::Whole, track: None };
+            return FramedRun {
+                span,
+                whole: BOUNDS_OF_NOTHING,
+                part: FramedPart::Whole,
+                track: None,
+                left_out: Vec::new(),
+            };
         };
         let whole = all.bounds;
-        let framed =
-            |span: &Span, part: FramedPart| FramedRun { span: span.clone(), whole, part, track: None };
+        let framed = |span: &Span, part: FramedPart| FramedRun {
+            span: span.clone(),
+            whole,
+            part,
+            track: None,
+            left_out: Vec::new(),
+        };
         if camera.auto == Some(Auto::Whole) || !is_automatic(camera) {
             return framed(all, FramedPart::Whole);
         }
@@ -106,7 +119,8 @@ impl FramedRun {
             return framed(all, FramedPart::Whole);
         }
         // The camera ignores outliers: a few bodies that fly far away from many others.
-        let all = &survey.without_outliers.as_ref().map_or(all.clone(), Span::framed);
+        let outliers = survey.outliers.as_ref();
+        let all = &outliers.map_or(all.clone(), |outliers| outliers.without.framed());
         let in_whole = seen(all);
         let is_closer = |framed: &FramedRun| {
             let views = framed.track.as_ref().map(|track| track.views().map(|view| width / view / in_whole));
@@ -122,7 +136,8 @@ impl FramedRun {
             return along;
         }
         if in_whole >= MIN_VISIBLE_WIDTH {
-            return framed(all, FramedPart::Whole);
+            let left_out = outliers.map(|outliers| outliers.bodies.clone()).unwrap_or_default();
+            return FramedRun { left_out, ..framed(all, FramedPart::Whole) };
         }
         let come = all_have_come(scene);
         let reaching = |least: f64| {

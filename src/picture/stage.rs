@@ -110,14 +110,26 @@ fn ruled_tile(scene: &Scene, usual: f64) -> Option<f64> {
     (0.1 * usual..10.0 * usual).contains(&spacing).then_some(spacing)
 }
 
-/// The width of a clearly visible line, m, in a picture with a width in view of `view` (m).
-pub(super) fn stroke(view: f64, output: Output) -> f64 {
-    STROKE.max(LEAST_STROKE / f64::from(output.width)) * view
+/// The widths of lines in a picture.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LineWidths {
+    /// The width of a clearly visible line, m.
+    pub(super) stroke: f64,
+    /// The width of the thinnest line without gaps, m.
+    pub(super) thinnest: f64,
 }
 
-/// The width of the thinnest line without gaps, m, in a picture with a width in view of `view` (m).
-pub(super) fn thinnest(view: f64, output: Output) -> f64 {
-    THINNEST_LINE / f64::from(output.width) * view
+impl LineWidths {
+    /// The widths in a picture with a width in view of `view` (m).
+    pub(super) fn new(view: f64, output: Output) -> LineWidths {
+        let thinnest = THINNEST_LINE / f64::from(output.width);
+        LineWidths { stroke: STROKE.max(thinnest) * view, thinnest: thinnest * view }
+    }
+
+    /// The widths in a picture with a width in view `scale` times as large.
+    pub(super) fn scaled(self, scale: f64) -> LineWidths {
+        LineWidths { stroke: self.stroke * scale, thinnest: self.thinnest * scale }
+    }
 }
 
 /// The diagonal of a box, rounded up to two digits.
@@ -133,8 +145,6 @@ const CLEAR_TILES: f64 = 600.0;
 const STROKE: f64 = 0.0031;
 /// The width of the thinnest line without gaps, pixels. POV-Ray breaks thinner ones into dots.
 const THINNEST_LINE: f64 = 1.5;
-/// The smallest width of a clearly visible line, pixels.
-const LEAST_STROKE: f64 = 1.5;
 
 impl Stage {
     /// Computes the surroundings of a scene for a camera. `whole` is the box around the whole run.

@@ -105,6 +105,13 @@ pub(super) fn least_height(pixels: f64, output: Output) -> f64 {
     2.0 * pixels / f64::from(output.width)
 }
 
+/// The usual height of a line of text in the image plane, where the picture has a width of 2. `size` is relative to the shorter side of the
+/// picture. The letters have at least `least` pixels.
+pub(super) fn usual_height(size: f64, least: f64, output: Output) -> f64 {
+    let aspect = f64::from(output.height) / f64::from(output.width);
+    (2.0 * aspect.min(1.0) * size).max(least_height(least, output))
+}
+
 /// Returns the width of a text in the usual font for a line height.
 pub(super) fn width(says: &str, height: f64) -> f64 {
     height * lettering::width(says, Typeface::usual())

@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use super::color_maps::shade;
 use super::colors;
+use super::stage::LineWidths;
 use crate::decimal::decimal_step;
 use crate::scene::{Color, Scene};
 use crate::simulate::{Frame, TrailPath, TrailPoint};
@@ -15,6 +16,8 @@ use crate::simulate::{Frame, TrailPath, TrailPoint};
 const DEFAULT_TRAIL_COLOR: Color = Color([0.93, 0.55, 0.08]);
 /// The width of a trail, relative to the smallest visible distance. A trail is some pixels wide.
 const TRAIL_WIDTH: f64 = 50.0;
+/// The width of a tapering trail at its oldest point, relative to that at the body, where this has no gaps.
+const TAIL: f64 = 0.15;
 /// The number of pieces in a stretch. A piece connects the points of two stored frames.
 const PIECES_PER_STRETCH: usize = 32;
 /// The largest number of stretches of a trail that the cache holds: twice as many as one frame can show.
@@ -37,6 +40,8 @@ pub struct Trail {
     pub fineness: f64,
     /// True if the trail tapers towards its oldest point.
     pub tapers: bool,
+    /// Half the width of the trail at its oldest point, m.
+    pub tail: f64,
     /// The color of the trail. If the color follows a value, the middle one of its map.
     pub color: Color,
     /// The color map of the trail, by its index in the scene. `None` for a trail of one color.
@@ -60,19 +65,20 @@ pub struct Stretch {
 }
 
 impl Trail {
-    /// Uses the width `stroke` (m) for a trail without a given width.
-    fn of_width(self, stroke: f64) -> Trail {
-        let radius = if self.radius > 0.0 { self.radius } else { stroke / 2.0 };
-        Trail { radius, ..self }
+    /// Uses the width `widths.stroke` for a trail without a given width. The tail of a trail is wide enough to have no gaps.
+    fn of_width(self, widths: LineWidths) -> Trail {
+        let radius = if self.radius > 0.0 { self.radius } else { widths.stroke / 2.0 };
+        let tail = match self.tapers {
+            true => (TAIL * radius).max(widths.thinnest / 2.0).min(radius),
+            false => radius,
+        };
+        Trail { radius, tail, ..self }
     }
 
     /// Half the width of the trail at one of its points, m.
     #[allow(clippy::cast_precision_loss, reason = "there are few points")]
     pub fn radius_at(&self, number: usize) -> f64 {
-        match self.tapers {
-            true => self.radius * (0.15 + 0.85 * number as f64 / (self.points.len() - 1) as f64),
-            false => self.radius,
-        }
+        self.tail + (self.radius - self.tail) * number as f64 / (self.points.len() - 1) as f64
     }
 }
 
@@ -163,6 +169,7 @@ impl Trails {
                 radius: trail.width.unwrap_or(0.0) / 2.0,
                 fineness: decimal_step(least / TRAIL_WIDTH),
                 tapers: trail.duration.is_some(),
+                tail: 0.0,
                 color: trail.color.or(of_body).unwrap_or(DEFAULT_TRAIL_COLOR),
                 map: scene.trail_map_of(body),
                 shades: Vec::new(),
@@ -173,20 +180,20 @@ impl Trails {
         Trails { trails }
     }
 
-    /// The requested trails without points. A trail without a given width gets the width `stroke` (m).
-    pub(super) fn planned(&self, stroke: f64) -> impl Iterator<Item = Trail> {
-        self.trails.iter().map(move |planned| planned.trail.clone().of_width(stroke))
+    /// The requested trails without points.
+    pub(super) fn planned(&self, widths: LineWidths) -> impl Iterator<Item = Trail> {
+        self.trails.iter().map(move |planned| planned.trail.clone().of_width(widths))
     }
 
-    /// Computes the trails up to a frame. A trail without a given width gets the width `stroke` (m).
-    pub(super) fn up_to(&self, frame: &Frame, stroke: f64) -> Vec<Trail> {
+    /// Computes the trails up to a frame.
+    pub(super) fn up_to(&self, frame: &Frame, widths: LineWidths) -> Vec<Trail> {
         let trail = |path: &TrailPath| {
             let of = self.trails.binary_search_by_key(&path.body, |planned| planned.trail.body).ok()?;
             let Planned { trail, least, range, stretches } = &self.trails[of];
             let Line { points, shades, stretches, reach, .. } = Line::along(path, *least, *range, stretches);
             let is_line = points.len() >= 2 && reach.is_finite();
             let shades = if range.is_some() { shades } else { Vec::new() };
-            is_line.then(|| Trail { points, shades, stretches, reach, ..trail.clone().of_width(stroke) })
+            is_line.then(|| Trail { points, shades, stretches, reach, ..trail.clone().of_width(widths) })
         };
         frame.past.trails.iter().filter_map(trail).collect()
     }
@@ -313,6 +320,8 @@ mod tests {
     use super::*;
     use crate::simulate::{Frames, survey};
 
+    const WIDTHS: LineWidths = LineWidths { stroke: 0.01, thinnest: 0.005 };
+
     /// The trails of a frame do not depend on the cache: frames in any order, or one frame alone, have the same trails.
     #[test]
     fn what_is_remembered_of_a_trail_changes_nothing() {
@@ -325,8 +334,8 @@ mod tests {
         let often = Trails::new(&scene, 0.01, &ranges);
         let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
         for frame in frames.iter().chain(frames.iter().rev()).step_by(37) {
-            let trails = often.up_to(frame, 0.01);
-            assert_eq!(trails, Trails::new(&scene, 0.01, &ranges).up_to(frame, 0.01), "{}", frame.index);
+            let trails = often.up_to(frame, WIDTHS);
+            assert_eq!(trails, Trails::new(&scene, 0.01, &ranges).up_to(frame, WIDTHS), "{}", frame.index);
             let far = |trail: &Trail| {
                 trail.points.iter().map(|point| point.abs().max_element()).fold(0.0, f64::max)
             };
@@ -344,5 +353,19 @@ mod tests {
         }
         let remembered = often.trails[0].stretches.made.lock().unwrap();
         assert!((17..=MAX_CACHED_STRETCHES).contains(&remembered.len()), "{}", remembered.len());
+    }
+    /// The tail of a tapering trail has the width of the thinnest line, if that is more than a part of its own width.
+    #[test]
+    fn a_tail_is_wide_enough_to_have_no_gaps() {
+        let tail = |keys: &str, thinnest: f64| {
+            let scene = format!("[body.b]\nshape.sphere.radius = 1\ntrail = {{ {keys} }}\n");
+            let trails = Trails::new(&Scene::parse(&scene).unwrap(), 0.01, &[]);
+            let widths = LineWidths { stroke: 0.04, thinnest };
+            trails.planned(widths).next().unwrap().tail
+        };
+        assert_eq!(tail("", 0.01), 0.02);
+        assert_eq!(tail("duration = 1", 0.001), TAIL * 0.02);
+        assert_eq!(tail("duration = 1", 0.01), 0.005);
+        assert_eq!(tail("duration = 1, width = 0.006", 0.01), 0.003);
     }
 }

@@ -26,8 +26,10 @@ pub(super) struct Path {
 }
 
 /// The space of a run without its outliers. Of each outlier, only its first frame is included.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct WithoutOutliers {
+    /// The indices of the outliers, the one that gets farthest first.
+    pub(super) outliers: Vec<usize>,
     /// The box around all bodies.
     pub(super) bounds: Bounds,
     /// The box around the bodies that are not fixed.
@@ -52,34 +54,40 @@ impl Paths {
         self.0.iter().flatten().filter(|path| path.is_fixed).map(|path| path.seen)
     }
 
+    /// The paths of all bodies, with their indices.
+    fn all(&self) -> impl Iterator<Item = (usize, Path)> {
+        self.0.iter().enumerate().filter_map(|(body, path)| Some((body, (*path)?)))
+    }
+
     /// Finds the smallest number of outliers without which the run is much smaller, and returns the space without them. `None` if there are
     /// no outliers.
     pub(super) fn without_outliers(&self) -> Option<WithoutOutliers> {
-        let mut paths: Vec<Path> = self.0.iter().flatten().copied().collect();
-        let moving = paths.iter().filter(|path| !path.is_fixed).count();
+        let mut paths: Vec<(usize, Path)> = self.all().collect();
+        let moving = paths.iter().filter(|(_, path)| !path.is_fixed).count();
         if moving < MIN_MOVING_BODIES {
             return None;
         }
         let centre = middle_of_starts(&paths);
         // Outliers are the bodies that get farthest from the median of all starting points.
-        let reach = |path: &Path| {
+        let reach = |(_, path): &(usize, Path)| {
             let farthest = (path.all.max - centre).abs().max((path.all.min - centre).abs());
             if path.is_fixed { 0.0 } else { farthest.length() }
         };
         paths.sort_by(|one, two| reach(two).total_cmp(&reach(one)));
-        let whole = paths.iter().map(|path| path.all).reduce(Bounds::union)?;
+        let whole = paths.iter().map(|(_, path)| path.all).reduce(Bounds::union)?;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of a number")]
         let most = ((moving as f64 * MAX_STRAY_FRACTION) as usize).max(1);
         // The space of the last paths, by the index of the first of them: one pass, as the number of paths may be large.
         let mut rests = vec![Space::default(); paths.len() + 1];
-        for (i, path) in paths.iter().enumerate().rev() {
+        for (i, (_, path)) in paths.iter().enumerate().rev() {
             rests[i] = rests[i + 1].with(path.is_fixed, path.all, path.seen);
         }
         let mut starts = Space::default();
         (1..=most).find_map(|outliers| {
-            let outlier = paths.get(outliers - 1)?;
+            let (_, outlier) = paths.get(outliers - 1)?;
             starts = starts.with(outlier.is_fixed, outlier.start, outlier.start);
-            let rest = starts.union(rests[outliers]).whole()?;
+            let outliers_of = || paths[..outliers].iter().map(|(body, _)| *body).collect();
+            let rest = starts.union(rests[outliers]).whole(outliers_of)?;
             (rest.bounds.diagonal() <= MAX_SIZE_RATIO * whole.diagonal()).then_some(rest)
         })
     }
@@ -111,15 +119,16 @@ impl Space {
     }
 
     /// Returns the boxes, or `None` if one of them is around no body.
-    fn whole(self) -> Option<WithoutOutliers> {
-        Some(WithoutOutliers { bounds: self.bounds?, moving: self.moving?, seen: self.seen? })
+    fn whole(self, outliers: impl Fn() -> Vec<usize>) -> Option<WithoutOutliers> {
+        let (bounds, moving, seen) = (self.bounds?, self.moving?, self.seen?);
+        Some(WithoutOutliers { outliers: outliers(), bounds, moving, seen })
     }
 }
 
 /// The median of each coordinate of the bodies' starting points, m.
-fn middle_of_starts(paths: &[Path]) -> glam::DVec3 {
+fn middle_of_starts(paths: &[(usize, Path)]) -> glam::DVec3 {
     let median = |axis: usize| {
-        let mut starts: Vec<f64> = paths.iter().map(|path| path.start.middle()[axis]).collect();
+        let mut starts: Vec<f64> = paths.iter().map(|(_, path)| path.start.middle()[axis]).collect();
         let middle = starts.len() / 2;
         *starts.select_nth_unstable_by(middle, f64::total_cmp).1
     };
@@ -151,6 +160,7 @@ mod tests {
     #[test]
     fn one_of_ten_that_flies_away_counts_where_it_starts() {
         let rest = row(10).without_outliers().unwrap();
+        assert_eq!(rest.outliers, [9]);
         assert_eq!(rest.bounds, Bounds { min: DVec3::splat(-0.5), max: DVec3::new(9.5, 0.5, 0.5) });
         assert_eq!((rest.moving, rest.seen), (rest.bounds, rest.bounds));
     }

@@ -5,6 +5,7 @@ use glam::{DMat3, DVec3};
 use super::Reach;
 use super::course::{Course, Stretch};
 use super::outliers::Paths;
+use super::survey::Outliers;
 use super::vectors::{anchors, axis, root, shown};
 use crate::physics::BodySnapshot;
 use crate::scene::{Body, Quantity, Scene};
@@ -145,9 +146,9 @@ impl Spans {
         self.now.as_ref().map(|now| now.span.bounds)
     }
 
-    /// Returns the span of the whole run without outliers, the bodies that fly far away. `None` if there are no outliers, or if the scene
-    /// shows arrows, since arrows may reach far themselves.
-    pub(super) fn without_outliers(&self, scene: &Scene) -> Option<Span> {
+    /// Finds the outliers of the run, the bodies that fly far away. `None` if there are none, or if the scene shows arrows, since arrows may reach
+    /// far themselves.
+    pub(super) fn outliers(&self, scene: &Scene) -> Option<Outliers> {
         if self.has_arrows {
             return None;
         }
@@ -157,7 +158,8 @@ impl Spans {
         let (bounds, moving, seen) = (add(rest.bounds), add(rest.moving), add(seen));
         let subject = anchors(scene).map(Bounds::point).fold(moving, Bounds::union);
         let shown = self.shown(subject, seen);
-        Some(Span { bounds, moving, seen, subject, shown, ..self.now()? })
+        let span = Span { bounds, moving, seen, subject, shown, ..self.now()? };
+        Some(Outliers { bodies: rest.outliers, without: span })
     }
 
     /// Returns all stored spans by increasing time, and the course of the run. The last span is that of the whole run.

@@ -38,15 +38,23 @@ use super::{
 use crate::physics::{BodySnapshot, LawResidual};
 use crate::scene::Scene;
 
+/// Bodies that fly far away from most others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outliers {
+    /// The indices of the bodies, the one that gets farthest first.
+    pub bodies: Vec<usize>,
+    /// The space of the whole run without these bodies. Of each of them, only its first frame is included.
+    pub without: Span,
+}
+
 /// Statistics of a whole run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Survey {
     /// The space that the run takes from its start to each of several times. The last of these times is the end of the run. A body is
     /// ignored after it has passed through a plane. Empty if all bodies are planes.
     pub spans: Vec<Span>,
-    /// The space of the whole run without outliers, the bodies that fly far away. Of each outlier, only its first frame is included. `None` if
-    /// there are no outliers.
-    pub without_outliers: Option<Span>,
+    /// The bodies that fly far away from most others. `None` if there are none.
+    pub outliers: Option<Outliers>,
     /// Where the moving bodies are in the course of the run, without bodies that have passed through a plane. Empty if nothing moves.
     pub course: Vec<Stretch>,
     /// The first passage of a body through each plane, including a ground with a given height. Empty in scenes with contacts.
@@ -298,11 +306,11 @@ impl<'a> Surveyor<'a> {
         let law = scene.simulation.contacts;
         let (drift_scale, drift_energy) = error.scale(law);
         let (curves, left_out) = curves.finish();
-        let without_outliers = spans.without_outliers(scene);
+        let outliers = spans.outliers(scene);
         let (spans, course) = spans.finish();
         let (color_ranges, value_ranges) = ranges.finish();
         Survey {
-            without_outliers,
+            outliers,
             spans,
             course,
             crossings: planes.into_iter().filter_map(Watched::finish).collect(),

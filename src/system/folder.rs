@@ -253,8 +253,11 @@ impl Dir {
     /// Returns a path that leads to this very folder, for a child process to start in. Where the system has no such path, returns the
     /// absolute path of the folder.
     pub fn path_for_child(&self) -> PathBuf {
-        native::path_of(&self.handle)
-            .unwrap_or_else(|| std::path::absolute(&self.path).unwrap_or_else(|_| self.path.clone()))
+        native::path_of(&self.handle).unwrap_or_else(|| {
+            // The path of the current folder may be empty, which no system accepts.
+            let path = Path::new(".").join(&self.path);
+            std::path::absolute(&path).unwrap_or(path)
+        })
     }
 
     /// Lets this folder be removed while this value exists. Windows would refuse it otherwise. Other values for the same folder count, too.

@@ -110,7 +110,11 @@ pub(crate) fn large_temporary_folder() -> PathBuf {
 pub(crate) fn this_program() -> Option<PathBuf> {
     // This link stays valid even if the file is replaced by a newer version in the meantime.
     let link = PathBuf::from("/proc/self/exe");
-    if link.exists() { Some(link) } else { env::current_exe().ok() }
+    if link.exists() {
+        return Some(link);
+    }
+    // A Linux without /proc does not tell the path. The first argument is the path or the name by which the program was started.
+    env::current_exe().ok().or_else(|| which::which(env::args_os().next()?).ok())
 }
 
 /// Returns the number of the signal that ended a process. `None` if it ended by itself.

@@ -159,3 +159,49 @@ fn births_leave_what_is_at_rest_alone() {
     }
     assert_eq!(late[late.len() - 1].bodies.len(), 8);
 }
+
+/// Piles of logs whose friction is too small give way: they slide and roll apart in their plane. Nothing throws a log along its axis, and the
+/// policies and two steps agree on where the outermost log is after a second.
+#[test]
+fn piles_of_logs_roll_apart() {
+    let scene = |rows: usize, contacts: &str, friction: f64, step: f64| {
+        let bodies = (0..rows).map(|row| {
+            let (count, high) = (rows - row, row as f64);
+            format!(
+                "[body.row{row}]\nrepeat = {count}\nlocation = ['0.2*i - 0.1*{last}', '0.1 + 0.1*sqrt(3)*{high}', 0]\n",
+                last = count - 1,
+            )
+        });
+        format!(
+            r#"
+            [simulation]
+            duration = 1
+            step = {step}
+            gravity = [0, -9.81, 0]
+            contacts = "{contacts}"
+            [environment.ground]
+            friction = 0.35
+            [defaults.body]
+            shape.cylinder = {{ radius = 0.1, height = 0.3 }}
+            orientation = [90, 0, 0]
+            friction = {friction}
+            {}
+            "#,
+            bodies.collect::<String>()
+        )
+    };
+    for (rows, friction, expected) in [(2, 0.245, 0.2742), (2, 0.26, 0.1940), (3, 0.05, 0.8932)] {
+        for (contacts, step) in [("event-driven", 0.001), ("time-stepping", 0.004), ("time-stepping", 0.001)] {
+            let frames = frames(&scene(rows, contacts, friction, step));
+            let farthest = |axis: fn(DVec3) -> f64| {
+                let of = |frame: &jabuka::simulate::Frame| {
+                    frame.bodies.iter().map(|body| axis(body.location).abs()).fold(0.0, f64::max)
+                };
+                frames.iter().map(of).fold(0.0, f64::max)
+            };
+            let [across, along] = [farthest(|at| at.x), farthest(|at| at.z)];
+            assert!(along < 0.01, "{rows} rows, {contacts}, {step} s: a log went {along} m along its axis");
+            assert!((across - expected).abs() < 0.01 * expected, "{rows} rows, {contacts}, {step} s: {across}");
+        }
+    }
+}

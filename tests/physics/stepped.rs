@@ -794,3 +794,83 @@ fn an_arm_on_a_hinge_rebounds_by_its_restitution() {
         assert!((hit[1] + 0.5 * hit[0]).abs() < 0.06, "friction {friction}: {hit:?}");
     }
 }
+
+/// Two wheels that mesh turn on after their angles have passed half a turn. A torque τ on the first turns both: with the gear ratio −1/3, it
+/// moves I = I₁ + I₂/9 = 0.025 kg m², so that the angle is ½ τ t² / I. The step changes it by τ h t / (2 I) at most.
+#[test]
+fn gears_mesh_for_more_than_half_a_turn() {
+    for turned in [0.0, 30.0] {
+        let text = format!(
+            r#"
+            [simulation]
+            duration = 1
+            contacts = "time-stepping"
+            [environment]
+            ground = false
+            [defaults.body]
+            orientation = [90, 0, {turned}]
+            [body.pinion]
+            shape.cylinder = {{ radius = 0.1, height = 0.05 }}
+            location = [3, 1, 0]
+            torque = [0, 0, 0.5]
+            mass = 1
+            [body.wheel]
+            shape.cylinder = {{ radius = 0.3, height = 0.05 }}
+            location = [3.4, 1, 0]
+            mass = 4
+            [joint.first.hinge]
+            between = [[3, 1, 0], "pinion"]
+            axis = [0, 0, 1]
+            [joint.second.hinge]
+            between = [[3.4, 1, 0], "wheel"]
+            axis = [0, 0, 1]
+            [joint.mesh.gear]
+            joints = ["first", "second"]
+            ratio = "-1/3"
+            "#
+        );
+        let of_step = 0.5 / 0.025 / 2.0 / 240.0;
+        let frames = frames(&text);
+        let start = frames[0].bodies[0].orientation;
+        let (mut angle, mut before) = (0.0, start);
+        for frame in &frames {
+            let [pinion, wheel] = [0, 1].map(|body| frame.bodies[body]);
+            angle += 2.0 * (pinion.orientation * before.conjugate()).normalize().z.asin();
+            before = pinion.orientation;
+            let expected = 10.0 * frame.time * frame.time;
+            assert!((angle - expected).abs() < of_step, "t = {}: {angle} instead of {expected}", frame.time);
+            let slip = wheel.angular_velocity.z + pinion.angular_velocity.z / 3.0;
+            assert!(slip.abs() < 1e-9, "{slip}");
+        }
+    }
+}
+
+/// The rope of Atwood's machine pulls with 2 m₁ m₂ g / (m₁ + m₂), also where time stepping finds the force.
+#[test]
+fn a_rope_over_wheels_has_its_tension() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 0.4
+        gravity = [0, -9.81, 0]
+        contacts = "time-stepping"
+        [environment]
+        ground = false
+        [defaults.body]
+        shape.box.size = [0.1, 0.1, 0.1]
+        [body.light]
+        location = [0, 3, 0]
+        mass = 1
+        [body.heavy]
+        location = [2, 3, 0]
+        mass = 2
+        [joint.rope.pulley]
+        between = ["light", "heavy"]
+        over = [[0, 5, 0], [2, 5, 0]]
+        "#,
+    );
+    for frame in &frames[1..] {
+        let force = frame.reactions[0].force;
+        assert!((force - 13.08 * DVec3::Y).length() < 1e-6, "t = {}: {force}", frame.time);
+    }
+}

@@ -44,8 +44,10 @@ impl Solver {
             let mut on = vec![Reaction::default(); width];
             let motor_row = model.constraints()[place.constraint].motor_row();
             let mut motor = 0.0;
-            for row in place.row..place.row + place.rows {
-                let multiplier = self.modes[row].given(self.laws[row]).unwrap_or(self.unknown[row]);
+            let rows = place.row..place.row + place.rows;
+            let multiplier = |row: usize| self.modes[row].given(self.laws[row]).unwrap_or(self.unknown[row]);
+            let multipliers: Vec<f64> = rows.clone().map(multiplier).collect();
+            for (row, &multiplier) in rows.zip(&multipliers) {
                 if motor_row == Some(row - place.row) {
                     motor = multiplier;
                 }
@@ -69,8 +71,7 @@ impl Solver {
                 begun: self.begun,
                 is_aiming: self.is_aiming,
             };
-            let multipliers = &self.unknown[place.row..place.row + place.rows];
-            let its = model.constraints()[place.constraint].force_on_last_end(&members, multipliers);
+            let its = model.constraints()[place.constraint].force_on_last_end(&members, &multipliers);
             if let Some(force) = its {
                 all[place.constraint] = Reaction { force, ..Reaction::default() };
                 continue;

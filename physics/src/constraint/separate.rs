@@ -35,7 +35,9 @@ impl Solver {
         self.unknown.fill(0.0);
         let depths = goals.iter().enumerate().map(|(row, goal)| goal / self.unit(row));
         let deepest = depths.fold(0.0, f64::max);
-        self.sweep_until(Stopping::fast(SEPARATION_SWEEP_TOLERANCE * deepest), |solver| {
+        // Where bodies are wedged, the acceleration can go astray. At the foot of a stack, a shift moves each body above.
+        let bound = deepest * goals.len() as f64;
+        self.sweep_until(Stopping::fast(SEPARATION_SWEEP_TOLERANCE * deepest).within(bound), |solver| {
             solver.sweep_rows(&goals, Purpose::Impact)
         });
         let bodies = self.structure.iter().flat_map(|structure| &structure.bodies);

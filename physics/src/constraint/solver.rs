@@ -39,6 +39,8 @@ pub(crate) struct Solver {
     pub(super) natures: Vec<BodyConstants>,
     /// The states of the members at the start of the step. `begun` is the time of this start, s.
     pub(super) origin: Vec<Member>,
+    /// False after the members were laid out anew. The next state that is measured then counts as the start of the step.
+    pub(super) has_origin: bool,
     pub(super) begun: f64,
     /// The length of the present step, s.
     pub(super) span: f64,
@@ -138,9 +140,8 @@ impl Solver {
             return;
         }
         self.plan(model);
+        self.has_origin = false;
         self.measure(t, state);
-        self.origin.clone_from(&self.members);
-        self.begun = t;
         // The errors of some constraint rows are measured relative to the start of the step.
         self.measured = f64::NAN;
         self.hold();
@@ -242,7 +243,7 @@ impl Solver {
     /// Lays out the members, whose places are not known yet.
     fn set_members(&mut self) {
         self.members = self.natures.iter().map(Member::new).collect();
-        self.origin.clone_from(&self.members);
+        self.has_origin = false;
         (self.measured, self.factorised) = (f64::NAN, f64::NAN);
     }
 
@@ -332,6 +333,10 @@ impl Solver {
 
     #[inline(always)]
     fn measure_members(&mut self, t: f64) {
+        if !self.has_origin {
+            self.origin.clone_from(&self.members);
+            (self.begun, self.has_origin) = (t, true);
+        }
         let Solver { structure: Some(structure), members, origin, rows, jacobian, all, .. } = self else {
             return;
         };

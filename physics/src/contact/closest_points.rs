@@ -18,6 +18,8 @@ pub(super) const FEATURE_TOLERANCE: f64 = 1e-9;
 const SEAM_TOLERANCE: f64 = 1e-7;
 /// The search among the triangles of a mesh begins with triangles that are nearer than this fraction of the smaller body's size.
 const INITIAL_SEARCH_DISTANCE: f64 = 0.25;
+/// Convex parts overlap deeply if they do by more than this fraction of the smaller one's size.
+pub(super) const DEEP_OVERLAP: f64 = 1e-3;
 /// The largest number of pairs of features of two convex parts that are compared without a guess by GJK.
 const MAX_PAIRS_WITHOUT_GUESS: usize = 16;
 
@@ -403,8 +405,9 @@ impl<'a> Search<'a> {
             part.features.iter().any(|feature| feature.holds(place, FEATURE_TOLERANCE * part.bound))
         };
         let is_exact = (found.gap - along).abs() <= 4.0 * self.digits;
-        // The closest points of overlapping convex parts may lie outside of the features.
-        let is_certain = is_exact && (along <= 0.0 || parts.into_iter().all(is_on));
+        // The closest points of overlapping convex parts may lie outside of the features. If they overlap deeply, the guess may be wrong.
+        let is_shallow = along <= 0.0 && along > -DEEP_OVERLAP * self.a.bound.min(self.b.bound);
+        let is_certain = is_exact && (is_shallow || parts.into_iter().all(is_on));
         is_certain.then_some(ClosestPoints { gap: along, ..found })
     }
 

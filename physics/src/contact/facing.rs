@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 
+use super::closest_points::DEEP_OVERLAP;
 use super::feature::Feature;
 use super::patch::{Patch, meet_placed};
 use super::solid::{ConvexPart, Core, Pose};
@@ -16,8 +17,6 @@ const SEPARATION_ROUNDING: f64 = 1e-13;
 /// A corner counts as lying on an edge of the other box if their distance is below this fraction of the sizes and the distance of the boxes.
 /// Rounding errors then hide the normal between the corner and the edge.
 const ON_EDGE: f64 = 1e-10;
-/// Boxes need a closer search if they overlap by more than this fraction of the smaller one's size.
-const DEEP_OVERLAP: f64 = 1e-3;
 /// Two unit normals count as equal if their scalar product differs from 1 by less than this.
 const NORMAL_TOLERANCE: f64 = 1e-12;
 /// Two edges count as parallel if the square of the sine of the angle between them is below this.

@@ -71,6 +71,44 @@ const BUCKET: Shape = Shape::Cone { radius: 0.3, top_radius: 0.6, height: 0.8 };
 /// All shapes above except the ground.
 pub(super) const ALL_SHAPES: [Shape; 7] = [BALL, CUBE, ROUNDED_CUBE, CAN, PILL, CONE, BUCKET];
 
+/// Logs that lie side by side and are almost parallel have the gap between their sides, and not the overlap of their ends.
+#[test]
+fn logs_side_by_side_have_the_gap_of_their_sides() {
+    const LOG: Shape = Shape::Cylinder { radius: 0.1, height: 0.3 };
+    let (log, lying) = (solid(&LOG), DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2));
+    // The sides of these two cross far outside of the logs, in a point from which their ends seem to overlap.
+    let pa = turned(
+        at(-0.10631749081209203, 0.1000000000556526, -8.248519528784344e-10),
+        DQuat::from_xyzw(0.7067540460518802, 0.022331988877859966, 0.022331988915161253, 0.7067540469874574),
+    );
+    let pb = turned(
+        at(3.4941168761444083e-9, 0.26940071070234833, 1.4152146906186866e-9),
+        DQuat::from_xyzw(0.7071067802809472, -7.743983674361987e-8, -7.800910286739715e-8, 0.7071067820921394),
+    );
+    let gap = (pb.location - pa.location).length() - 0.2;
+    let found = near(&LOG, &pa, &LOG, &pb);
+    assert!((found.gap - gap).abs() < 1e-9, "{found:?}, {gap}");
+    let mut random = Random::new(31);
+    for k in 0..40_000 {
+        let small = |k: usize| [1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-12][k % 6];
+        let (tilt, slide, apart) = (small(k), small(k / 6), small(k / 36));
+        let askew = |random: &mut Random| {
+            let rolled = lying * DQuat::from_rotation_y(random.number());
+            DQuat::from_scaled_axis(tilt * random.vector()) * rolled
+        };
+        let (one, other) = (askew(&mut random), askew(&mut random));
+        let (gap, angle) = (apart * random.number(), random.number());
+        let way = (0.2 + gap) * DVec3::new(libm::cos(angle), libm::sin(angle), 0.0);
+        let (pa, pb) =
+            (turned(at(0.0, 0.0, 0.0), one), turned(at(way.x, way.y, slide * random.number()), other));
+        let found = near(&LOG, &pa, &LOG, &pb);
+        assert!((found.gap - gap).abs() < 3.0 * tilt, "{found:?}, {gap}, {tilt}");
+        for touch in touches(&log, &pa, &log, &pb, 1e-4) {
+            assert!((touch.meeting.gap - gap).abs() < 6.0 * tilt, "{touch:?}, {gap}, {tilt}");
+        }
+    }
+}
+
 #[test]
 fn gaps_have_closed_forms() {
     let lying = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);

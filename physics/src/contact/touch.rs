@@ -244,12 +244,14 @@ impl Pair<'_> {
         }
     }
 
-    /// Returns true if a rim of one body lies flat on a plane of the other. `normal` is the normal of the plane.
+    /// Returns true if a rim of one body lies flat on a plane of the other. `normal` is the normal of the plane. The ends of two logs side by side
+    /// face the same way, and do not lie on each other.
     fn is_flat(&self, rim: &Patch, normal: DVec3, of_second: bool) -> bool {
         let (own, other) = if of_second { (self.pb, self.pa) } else { (self.pa, self.pb) };
         match *rim {
             Patch::Circle { axis, .. } => {
-                (own.orientation * axis).cross(other.orientation * normal).length() < FLAT_CONTACT_SINE
+                let (axis, normal) = (own.orientation * axis, other.orientation * normal);
+                axis.dot(normal) < 0.0 && axis.cross(normal).length() < FLAT_CONTACT_SINE
             }
             _ => false,
         }

@@ -27,9 +27,17 @@ impl Ghosts {
         Ghosts { bodies: bodies.map(block).collect(), style }
     }
 
-    /// Appends the ghosts that a frame shows.
+    /// Appends the ghosts that a frame shows. They cast no shadow: at the time of the picture, nothing is there.
     pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame) {
-        for ghost in plan.ghosts(frame) {
+        let ghosts: Vec<_> =
+            plan.ghosts(frame).filter(|ghost| self.style.can_write(ghost.body.location)).collect();
+        match ghosts.len() {
+            0 => return,
+            // POV-Ray warns about a union of one object.
+            1 => out.push_str("object { // a ghost\n"),
+            _ => out.push_str("union { // ghosts\n"),
+        }
+        for ghost in ghosts {
             if let Ok(of) = self.bodies.binary_search_by_key(&ghost.body.id, |(number, _)| *number) {
                 if let Some(shade) = plan.ghost_color(ghost) {
                     let shade = color(shade, self.style);
@@ -38,5 +46,6 @@ impl Ghosts {
                 self.bodies[of].1.write_single(out, &ghost.body, plan.ghost_scale(ghost));
             }
         }
+        out.push_str("no_shadow\n}\n");
     }
 }

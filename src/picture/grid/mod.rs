@@ -8,7 +8,7 @@ use self::numbers::{Axis, Beside, Number};
 use super::camera::Placed;
 use super::length::{prefixed, value};
 use super::stage::Scenery;
-use super::text::least_height;
+use super::text::usual_height;
 use super::thing::{Form, Line, Thing};
 use crate::decimal::round_above;
 use crate::scene::{self, Color, DecimalSign, GridPlane, Preset, Scene};
@@ -16,7 +16,7 @@ use crate::simulate::{Bounds, anchors};
 
 pub(super) use self::numbers::GridLayout;
 
-/// The height of the numbers at grid lines, relative to the height of the picture.
+/// The height of the numbers at grid lines, relative to the shorter side of the picture.
 pub(super) const SIZE: f64 = 0.045;
 /// The smallest height of the numbers at grid lines, pixels.
 pub(super) const LEAST_PIXELS: f64 = 11.0;
@@ -86,7 +86,7 @@ impl GridPlan {
             high,
             ground: scenery.ground,
             floor: if is_hidden { scenery.ground } else { f64::NEG_INFINITY },
-            height: (SIZE * 2.0 * height / width).max(least_height(LEAST_PIXELS, scene.output)),
+            height: usual_height(SIZE, LEAST_PIXELS, scene.output),
             pixels: width,
             aspect: height / width,
             color: line_color(scene),

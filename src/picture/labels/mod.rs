@@ -16,15 +16,15 @@ use super::occupancy::{Occupancy, Rectangle};
 use super::plots;
 use super::screen::Screen;
 use super::surroundings::{Key, Movable};
-use super::text::{MARGIN, Text, Vertical, is_top, least_height};
+use super::text::{MARGIN, Text, Vertical, is_top, usual_height};
 use crate::font::Weight;
 use crate::lettering;
 use crate::scene::{Color, Corner, DecimalSign, Label, LabelPlace, Output, Scene};
 use crate::simulate::{Frame, Ghost, Measures, MomentState};
 
-/// The default height of a line of text, relative to the height of the picture.
+/// The default height of a line of text, relative to the shorter side of the picture.
 const DEFAULT_LABEL_HEIGHT: f64 = 0.055;
-/// The default height of a line of text in the center of the picture, relative to the height of the picture.
+/// The default height of a line of text in the center of the picture, relative to the shorter side of the picture.
 const SIZE_IN_CENTER: f64 = 0.1;
 /// The smallest default height of a line of text, pixels.
 const LEAST_PIXELS: f64 = 13.0;
@@ -105,7 +105,7 @@ impl Labels {
         let labels: Vec<Planned> = scene.labels.iter().map(plan).collect();
         let layout = |time| Layout::new(&labels, time, taken.clone(), (free, aspect));
         let layouts = times(&scene.labels).into_iter().map(layout).collect();
-        let (note_height, sign) = (usual_height(DEFAULT_LABEL_HEIGHT, scene.output), scene.output.decimal);
+        let (note_height, sign) = (usual_height(DEFAULT_LABEL_HEIGHT, LEAST_PIXELS, scene.output), scene.output.decimal);
         Labels { labels, layouts, measures, aspect, note_height, sign }
     }
 
@@ -187,13 +187,7 @@ impl Labels {
 fn height(label: &Label, output: Output) -> f64 {
     let aspect = f64::from(output.height) / f64::from(output.width);
     let size = if label.place == LabelPlace::Center { SIZE_IN_CENTER } else { DEFAULT_LABEL_HEIGHT };
-    label.size.map_or_else(|| usual_height(size, output), |size| 2.0 * aspect * size)
-}
-
-/// The default height of a line of text in the image plane. `size` is relative to the height of the picture.
-fn usual_height(size: f64, output: Output) -> f64 {
-    let aspect = f64::from(output.height) / f64::from(output.width);
-    (2.0 * aspect * size).max(least_height(LEAST_PIXELS, output))
+    label.size.map_or_else(|| usual_height(size, LEAST_PIXELS, output), |size| 2.0 * aspect * size)
 }
 
 /// The times from which other labels are visible than before, s, in order. The first is −∞.

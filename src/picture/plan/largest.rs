@@ -5,11 +5,14 @@ use super::super::direction_hints::DirectionHints;
 use super::super::followed::FollowedValues;
 use super::super::framed_run::{FramedPart, largest};
 use super::super::framing;
+use crate::decimal::round_above;
 use crate::scene::{Body, Camera, Scene};
 use crate::simulate::{Bounds, Survey};
 
 /// The width below which a body looks like a dot, pixels.
 const SMALLEST_SEEN: f64 = 4.0;
+/// The width of a body that is clearly visible, pixels.
+const CLEARLY_SEEN: f64 = 12.0;
 
 /// The largest body of those that move or, if none does, of all, and its size in the picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +23,8 @@ pub struct Largest {
     pub is_below_fixed: bool,
     /// The largest width of the body in any picture, pixels.
     pub pixels: f64,
+    /// The value of `look.scale` that would draw the body with a clearly visible size, if the camera framed the whole run.
+    pub fit: f64,
     /// The width that the body would have if the camera framed the whole run, pixels.
     pub pixels_in_whole: f64,
 }
@@ -39,11 +44,13 @@ impl Largest {
         let towards = framing::towards_camera(whole.moving, DirectionHints::of(scene));
         let seen = framing::rounded_outward(whole.seen);
         let on_whole = MovingCamera::new(camera, seen, towards, scene, followed);
+        let pixels_in_whole = pixels(on_whole.placed().width_of_view(whole.bounds));
         Some(Largest {
             name: body.name.to_string(),
             is_below_fixed: scene.bodies.iter().any(|other| half_width(other) > half_width(body)),
             pixels: pixels(narrowest_view(scene, eye, whole.bounds)),
-            pixels_in_whole: pixels(on_whole.placed().width_of_view(whole.bounds)),
+            fit: round_above(body.look.scale * CLEARLY_SEEN / pixels_in_whole),
+            pixels_in_whole,
         })
     }
 

@@ -52,7 +52,7 @@ impl Plan {
             screen: &screen,
             aspect: self.labels.aspect(),
             view: sizes.view,
-            stroke: sizes.stroke,
+            stroke: sizes.lines.stroke,
         };
         let mut sketch = self.marks.sketch(&scale);
         for thing in &mut sketch.things {
@@ -60,7 +60,7 @@ impl Plan {
                 Form::Lines { lines } => {
                     lines.iter_mut().for_each(|line| self.planes.lift_line(line, [line.radius; 2], &camera));
                 }
-                Form::Area { points, .. } => self.planes.lift_area(points, sizes.stroke, &camera),
+                Form::Area { points, .. } => self.planes.lift_area(points, sizes.lines.stroke, &camera),
                 _ => {}
             }
         }
@@ -69,7 +69,7 @@ impl Plan {
 
     /// The texts and components of the arrows of a frame.
     pub(super) fn sketch_of_arrows(&self, frame: &Frame, arrows: &[Arrow]) -> Sketch<'_> {
-        self.arrow_marks.sketch(arrows, &self.arrows, frame, self.sizes(frame).stroke)
+        self.arrow_marks.sketch(arrows, &self.arrows, frame, self.sizes(frame).lines.stroke)
     }
 
     /// The arrows of a frame, moved in front of what would hide them.

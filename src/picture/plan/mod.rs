@@ -31,7 +31,7 @@ use super::marks::{ArrowMarks, Marks, with_lines};
 use super::not_drawn::{self, NotDrawn};
 use super::plots::{PlannedPlot, PlotNow, Plots, UnseenPlot};
 use super::screen::Screen;
-use super::stage::{Scenery, Stage, stroke, thinnest};
+use super::stage::{LineWidths, Scenery, Stage};
 use super::thing::{PlannedThing, Thing};
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
@@ -72,6 +72,8 @@ pub struct Plan {
     largest: Option<Largest>,
     /// The part of the run that the camera frames.
     part: FramedPart,
+    /// The indices of the bodies that fly out of the picture.
+    left_out: Vec<usize>,
     not_drawn: Vec<NotDrawn>,
     unseen_plots: Vec<UnseenPlot>,
 }
@@ -89,10 +91,7 @@ pub(crate) struct Lost {
 struct Sizes {
     /// The width in view of the camera, m.
     view: f64,
-    /// The width of a clearly visible line, m.
-    stroke: f64,
-    /// The width of the thinnest line without gaps, m.
-    thinnest: f64,
+    lines: LineWidths,
     arrows: ArrowSizes,
 }
 
@@ -139,13 +138,12 @@ impl Plan {
         let placed = eye.placed();
         let early = eye.early(0.0).width_of_view(whole);
         let arrows = Arrows::new(scene, longest, measures.clone());
-        let width = stroke(early, scene.output);
+        let lines = LineWidths::new(early, scene.output);
         let sizes = Sizes {
             view: early,
-            stroke: width,
-            thinnest: thinnest(early, scene.output),
+            lines,
             // Use the rounded scales that the camera was placed for.
-            arrows: arrows.still_sizes(scales, early, width),
+            arrows: arrows.still_sizes(scales, early, lines.stroke),
         };
         // The ground is placed below the bodies. Arrows and axes may extend below the ground.
         let stage = Stage::new(scene, scenery, whole, placed);
@@ -166,8 +164,8 @@ impl Plan {
             unseen_plots: plots.unseen(scene, survey),
             links,
             ghosts: Ghosts::new(scene),
-            trails: Trails::new(scene, stroke(narrowest, scene.output), &survey.color_ranges),
-            ruled: still.map(|ruler| ruler.whole(sizes.stroke, sizes.view)),
+            trails: Trails::new(scene, LineWidths::new(narrowest, scene.output).stroke, &survey.color_ranges),
+            ruled: still.map(|ruler| ruler.whole(lines.stroke, sizes.view)),
             ruler,
             bar,
             labels: Labels::new(scene, ink, plots.areas(), measures.clone()),
@@ -179,6 +177,7 @@ impl Plan {
             screen: has_texts(scene).then(|| placed.screen()),
             largest: Largest::seen(scene, camera, survey, &eye, &followed),
             part: framed_run.part,
+            left_out: framed_run.left_out,
             sizes,
             stage,
             eye,
@@ -194,9 +193,8 @@ impl Plan {
             return self.sizes;
         }
         let view = self.eye.at(frame).width_of_view(self.stage.whole);
-        let [stroke, thinnest] =
-            [self.sizes.stroke, self.sizes.thinnest].map(|width| width * (view / self.sizes.view));
-        Sizes { view, stroke, thinnest, arrows: self.arrows.sizes(view, stroke) }
+        let lines = self.sizes.lines.scaled(view / self.sizes.view);
+        Sizes { view, lines, arrows: self.arrows.sizes(view, lines.stroke) }
     }
 
     /// The surroundings of the bodies: ground, sky and haze.
@@ -272,7 +270,7 @@ impl Plan {
     /// The parts of springs and joints that are drawn in a frame.
     pub fn links(&self, frame: &Frame) -> Vec<Thing<'_>> {
         // The sizes of a moving camera take time.
-        if self.links.is_empty() { Vec::new() } else { self.links.at(frame, self.sizes(frame).thinnest) }
+        if self.links.is_empty() { Vec::new() } else { self.links.at(frame, self.sizes(frame).lines.thinnest) }
     }
 
     /// All parts of springs and joints, including those that are not drawn in some frames.
@@ -282,7 +280,7 @@ impl Plan {
 
     /// For each part of [`planned_links`](Self::planned_links), its shape in a frame. `None` if the part is not drawn.
     pub fn each_link(&self, frame: &Frame) -> impl Iterator<Item = Option<Thing<'_>>> {
-        self.links.each(frame, self.sizes(frame).thinnest)
+        self.links.each(frame, self.sizes(frame).lines.thinnest)
     }
 
     /// The visible ghosts of a frame: those with another pose than their body.
@@ -307,17 +305,17 @@ impl Plan {
 
     /// The trails of bodies up to a frame.
     pub fn trails(&self, frame: &Frame) -> Vec<Trail> {
-        self.trails.up_to(frame, self.stroke(frame))
+        self.trails.up_to(frame, self.sizes(frame).lines)
     }
 
     /// The width of a clearly visible line in a frame, m. It is the default width of trails.
     pub fn stroke(&self, frame: &Frame) -> f64 {
-        self.sizes(frame).stroke
+        self.sizes(frame).lines.stroke
     }
 
     /// The requested trails without points, with their widths at the start.
     pub fn planned_trails(&self) -> Vec<Trail> {
-        self.trails.planned(self.sizes.stroke).collect()
+        self.trails.planned(self.sizes.lines).collect()
     }
 
     /// The lines of the grid for a fixed camera, the same in all frames. `None` if the camera moves.
@@ -337,7 +335,7 @@ impl Plan {
         }
         let sizes = self.sizes(frame);
         let camera = self.eye.at(frame);
-        self.ruler.as_ref().map(|ruler| Cow::Owned(ruler.seen_by(&camera, sizes.stroke, sizes.view)))
+        self.ruler.as_ref().map(|ruler| Cow::Owned(ruler.seen_by(&camera, sizes.lines.stroke, sizes.view)))
     }
 
     /// The grid spacing that the scene gives and the drawn spacing, m. `None` if they are equal; the drawn one is larger if there would be
@@ -403,6 +401,11 @@ impl Plan {
     /// The plots without room in the picture, and the curves of which no picture shows a point.
     pub fn unseen_plots(&self) -> &[UnseenPlot] {
         &self.unseen_plots
+    }
+
+    /// The indices of the bodies that fly out of the picture, the one that gets farthest first. The camera shows the other bodies.
+    pub fn left_out(&self) -> &[usize] {
+        &self.left_out
     }
 
     /// The largest body, if a warning about its size is needed: it is too small to be seen, or would be too small in a picture of the whole

@@ -4,11 +4,11 @@
 use super::super::framing::Free;
 use super::super::grid;
 use super::super::labels;
-use super::super::text::{MARGIN, Vertical, across_free, is_top, least_height};
+use super::super::text::{MARGIN, Vertical, across_free, is_top, usual_height};
 use super::{PlannedPlot, color_bar};
 use crate::scene::{Corner, Output, Plot, PlotPlace, Scene};
 
-/// The usual height of a line of text, as a fraction of the picture's height.
+/// The usual height of a line of text, as a fraction of the picture's shorter side.
 const USUAL_LINE: f64 = 0.036;
 /// The smallest usual height of a line of text, pixels. Smaller letters cannot be read.
 const MIN_LINE: f64 = 10.5;
@@ -141,7 +141,7 @@ fn aspect(output: Output) -> f64 {
 
 /// Returns the height of a line of text.
 fn line(output: Output) -> f64 {
-    (USUAL_LINE * 2.0 * aspect(output)).max(least_height(MIN_LINE, output))
+    usual_height(USUAL_LINE, MIN_LINE, output)
 }
 
 /// Returns the height that the scale bar and plots use in a place. `before` are the plots that stand in the picture already.

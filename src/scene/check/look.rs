@@ -1,18 +1,21 @@
 //! Reads the `look` of bodies, `[light.NAME]`, `[environment]` and `[output]`.
 
+use glam::DVec3;
+
 use super::marks::Known;
 use super::view::View;
 use super::{Context, motion, value_map};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::physics::Shape;
 use crate::scene::grammar::bodies::{body, look};
+use crate::scene::grammar::forces::force;
 use crate::scene::grammar::lights::{area, light, point, sun};
 use crate::scene::grammar::scene::{environment, ground, output, scene};
 use crate::scene::grammar::shapes::{sdl, shape};
 use crate::scene::value::{self, Text};
 use crate::scene::{
     Body, BodyLook, Camera, Color, DecimalSign, Environment, Ground, Layout, Light, LightKind, LookNumber,
-    Output, Preset, Projection, Sky, Visibility,
+    Output, Preset, Projection, SimulationSettings, Sky, Visibility,
 };
 
 /// Reads the `look` of a body: the scale at which it is drawn, whether it is drawn, and its raw SDL.
@@ -83,10 +86,11 @@ fn light_kind(view: &View<'_>, known: Known<'_, '_>, context: &mut Context<'_>) 
     Some(LightKind::Sun { direction })
 }
 
-pub(super) fn environment(root: &View<'_>, bodies: &[Body]) -> Environment {
+pub(super) fn environment(root: &View<'_>, simulation: &SimulationSettings, bodies: &[Body]) -> Environment {
     let view = root.table(&scene::ENVIRONMENT);
     let name = root.get_as::<value::Text>(&scene::ENVIRONMENT).or_else(|| view.get(&environment::PRESET));
-    let preset = name.and_then(Preset::named).unwrap_or_default();
+    let usual = if is_in_space(root, simulation) { Preset::Space } else { Preset::default() };
+    let preset = name.and_then(Preset::named).unwrap_or(usual);
     let has_plane = bodies.iter().any(|body| matches!(body.shape, Shape::Plane { .. }));
     let table = view.variant(&environment::GROUND);
     let given =
@@ -103,6 +107,16 @@ pub(super) fn environment(root: &View<'_>, bodies: &[Body]) -> Environment {
         fog: view.get(&environment::FOG),
         sky,
     }
+}
+
+/// True if the scene shows planets or stars, as far as one can tell: gravitation acts, and nothing stands on the ground or speaks of it.
+fn is_in_space(root: &View<'_>, simulation: &SimulationSettings) -> bool {
+    let forces = root.named(&scene::FORCE);
+    let does_attract = |force: &View<'_>| force.variant(&force::GRAVITATION).is_some();
+    !root.has(&scene::ENVIRONMENT)
+        && simulation.gravity == DVec3::ZERO
+        && simulation.contacts.is_none()
+        && forces.into_iter().any(|(_, _, force)| does_attract(&force))
 }
 
 /// Reads `[output]`. `camera` is the main camera, on which the default size depends.

@@ -354,7 +354,7 @@ fn build(
         planets::check(&root, &simulation, &bodies, &forces, context);
         effect::check(&root, &bodies, &forces, context);
     }
-    let mut environment = look::environment(&root, &bodies);
+    let mut environment = look::environment(&root, &simulation, &bodies);
     contact::ground(&root, &simulation, &mut environment);
     contact::check(&root, &simulation, &bodies, &environment, context);
     let joints = joint::read(&root, &bodies, &simulation, context);

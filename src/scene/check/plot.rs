@@ -3,17 +3,18 @@
 use std::sync::Arc;
 
 use super::Context;
-use super::label::{MAX_LENGTH, corner};
+use super::label::MAX_LENGTH;
 use super::measures::{OfEach, Reader, Things};
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::scene::grammar::camera::camera;
 use crate::scene::grammar::labels::plot;
-use crate::scene::grammar::scene::scene;
+use crate::scene::grammar::scene::{output, scene};
 use crate::scene::grammar::{Any, Key, KeySpec};
 use crate::scene::read;
 use crate::scene::source::Node;
 use crate::scene::value::Text;
-use crate::scene::{Color, Curve, MeasureFormula, Plot, PlotKind, PlotPlace, PlotSpans};
+use crate::scene::{Color, Corner, Curve, MeasureFormula, Plot, PlotKind, PlotPlace, PlotSpans};
 
 /// A text of a plot, with the place where it is written.
 type Written<'a> = (&'a str, Span);
@@ -49,6 +50,31 @@ pub(super) fn read(
 }
 
 impl<'b, 'c> Plots<'_, 'b, 'c> {
+    /// Returns the place of a plot. Without a given one, a plot stands beside the bodies, where a camera without a given place shows nothing.
+    fn place(&self, view: &View<'_>, width: Option<f64>) -> PlotPlace {
+        let named_corner = |word: &str| Corner::ALL.into_iter().find(|corner| corner.name() == word);
+        match (view.get(&plot::SIDE), view.get(&plot::CORNER).and_then(named_corner)) {
+            (Some("left"), _) => PlotPlace::Left,
+            (Some(_), _) => PlotPlace::Right,
+            (None, Some(corner)) => PlotPlace::Corner(corner),
+            (None, None) => {
+                let (seen_by, output) = (self.root.table(&scene::CAMERA), self.root.table(&scene::OUTPUT));
+                let places = [&camera::LOCATION.spec, &camera::KEYFRAMES.spec, &camera::FOLLOW.spec];
+                let is_given = places.into_iter().any(|key| seen_by.has(key));
+                // Plots in corners share their room with those in the same corner, and not with those at the side.
+                let plots = self.root.named(&scene::PLOT);
+                let has_corners = plots.iter().any(|(_, _, other)| other.has(&plot::CORNER));
+                let is_wide = output.get(&output::SIZE).first() >= output.get(&output::SIZE).get(1);
+                let is_narrow = width.is_none_or(|width| width <= Plot::MAX_WIDTH_AT_SIDE);
+                if is_given || has_corners || !is_wide || !is_narrow {
+                    PlotPlace::Corner(Corner::TopRight)
+                } else {
+                    PlotPlace::Right
+                }
+            }
+        }
+    }
+
     fn plot(&mut self, (name, span): (&str, Span), view: &View<'_>) -> Option<(Plot, PlotSpans)> {
         let x_formula = view.get(&plot::X);
         let x = self.formula((x_formula, view.span(&plot::X).unwrap_or(span)));
@@ -81,12 +107,8 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             let message = "a logarithmic axis has no zero and no negative numbers".to_owned();
             self.report(view.span(&plot::X_RANGE), message, "both values must be greater than 0");
         }
-        let place = match view.get(&plot::SIDE) {
-            Some("left") => PlotPlace::Left,
-            Some("right") => PlotPlace::Right,
-            _ => PlotPlace::Corner(corner(view, &plot::CORNER)),
-        };
         let width = view.get(&plot::WIDTH);
+        let place = self.place(view, width);
         if !matches!(place, PlotPlace::Corner(_))
             && width.is_some_and(|width| width > Plot::MAX_WIDTH_AT_SIDE)
         {

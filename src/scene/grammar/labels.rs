@@ -83,7 +83,7 @@ table! {
         Number(Bound::From(0.01, 0.5)),
         "The height of its lines, as part of the picture's height",
     )
-    .default("0.055, and at least 13 pixels; in the center 0.1")
+    .default("0.055, in the center 0.1, of the picture's shorter side, and at least 13 pixels")
     .also(&["font_size", "fontsize", "text_size", "height"]),
     COLOR: Option<value::Color> = KeySpec::new("color", Color, "Its color")
         .default("dark, or light on a dark background")
@@ -166,15 +166,15 @@ table! {
     TITLE: Option<value::Text> = KeySpec::new("title", Text, "Its title")
         .default("none")
         .also(&["caption", "text"]),
-    CORNER: value::Text = KeySpec::new("corner", Choice(corners), "Its corner of the picture; several stand below each other")
-        .default_word("top-right")
+    CORNER: Option<value::Text> = KeySpec::new("corner", Choice(corners), "Its corner of the picture; several stand below each other")
+        .default("top-right, if there is no `side`")
         .also(&["place", "position", "location", "at"]),
     SIDE: Option<value::Text> = KeySpec::new(
         "side",
         Choice(sides_of_plots),
         "Its side of the picture, instead of a corner: a camera without a location shows the bodies beside it",
     )
-    .default("none: it stands in a corner"),
+    .default("right, so that it hides nothing; none if a plot has a `corner`, `[camera]` has a place, or the picture is higher than wide"),
     WIDTH: Option<f64> = KeySpec::new("width", Number(Bound::From(0.1, 1.0)), "Its width, as part of the picture's width; at a side at most 0.4; with 1, it fills the picture")
         .default("0.36, and more in small pictures")
         .also(&["size"]),

@@ -378,7 +378,8 @@ orbit.period = 20
 
 Formulas of a `motion`, of the camera and of lights know the time `t`, s. A motion can follow another body that moves by formulas: `crank.x + 1`.
 Velocities are derived from the motion. A body with a motion acts on
-others, for example by springs, and the work of its drive is booked. Its own kinetic energy and momentum are not counted.
+others, for example by springs, and the work of its drive is booked. Its kinetic energy is part of `kinetic` and `energy`, but not of the drift, as its
+drive gives it. The momentum of the scene does not contain its own.
 
 A `motion.trajectory` is a CSV file with a row for each time and body. Its columns are `t` (or `time`), `body`, `x`, `y`, `z`, and optionally
 `qx`, `qy`, `qz`, `qw` (a quaternion), `vx`, `vy`, `vz` and `wx`, `wy`, `wz` (in world axes). Units stand in brackets: `x [cm]`. `jabuka export`

@@ -212,7 +212,7 @@ table! {
         Choice(presets),
         "A matching set of sky, ground, default lights and ambient light; each can be replaced",
     )
-    .default("\"daylight\""),
+    .default("\"daylight\"; \"space\" if a `gravitation` acts, without `[environment]`, `simulation.gravity` and `simulation.contacts`"),
     GROUND: Any = KeySpec::new("ground", Either(&[Boolean, Table(&ground::TABLE)]), "The checkered ground")
         .default("true; false in space, or if a body is a plane")
         .also(&["floor"]),

@@ -217,11 +217,13 @@ fn one_of_many_bodies_that_flies_away_counts_where_it_starts() {
         )
     };
     let survey = surveyed(&scene(""));
-    let rest = survey.without_outliers.unwrap();
+    let found = survey.outliers.unwrap();
+    assert_eq!(found.bodies, [9]);
+    let rest = found.without;
     assert_eq!((rest.seen.min, rest.seen.max), (DVec3::splat(-0.5), DVec3::new(9.5, 0.5, 0.5)));
     assert!((survey.spans.last().unwrap().seen.max.y - 200.5).abs() < 1e-9);
     // An arrow may reach beyond the box around the other bodies.
-    assert_eq!(surveyed(&scene("arrows.velocity = true")).without_outliers, None);
+    assert_eq!(surveyed(&scene("arrows.velocity = true")).outliers, None);
 }
 
 /// The angle of a wheel at 1 turn/s goes from 180° to −180° once in a turn. Its curve has a gap there, and no line across.

@@ -142,7 +142,7 @@ export function trail(lines, run, { body, radius, color, tapers, palette, shades
   const places = points.length * 8 < most ? bends(points) : points.map((_, i) => i);
   const smooth = places.map((place) => onCurve(points, place));
   for (let i = 1; i < smooth.length; i++) {
-    const width = (k) => radius * (tapers ? 0.15 + (0.85 * k) / (smooth.length - 1) : 1);
+    const width = (k) => radius * (tapers ? 0.35 + (0.65 * k) / (smooth.length - 1) : 1);
     // A piece has the color of its middle.
     const middle = (places[i - 1] + places[i]) / 2;
     const [from, to] = [colors[Math.floor(middle)], colors[Math.ceil(middle)]];
