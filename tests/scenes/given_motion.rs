@@ -382,6 +382,7 @@ fn further_columns_of_a_file_are_measures() {
         text = '${epot}'
         [plot.p]
         y = ['atom[1].epot:eV', 'atom[1].bonds']
+        corner = 'top-right'
         ";
     let place = Place::new(&[("scene.toml", scene), ("run.csv", file)]);
     let scene_read = place.read("scene.toml");

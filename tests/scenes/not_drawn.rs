@@ -195,11 +195,11 @@ fn plots_that_find_no_room_in_the_picture() {
         names.iter().map(|name| format!("[plot.{name}]\ny = 'kinetic'\n{keys}\n")).collect()
     };
     // Three plots have room below each other in a small picture, five have not.
-    let small = "[output]\nsize = [160, 90]\n";
-    assert_eq!(of_plots(&format!("{small}{}", plots(&["a", "b", "c"], ""))), [""; 0]);
+    let (small, corner) = ("[output]\nsize = [160, 90]\n", "corner = 'top-right'");
+    assert_eq!(of_plots(&format!("{small}{}", plots(&["a", "b", "c"], corner))), [""; 0]);
     let help = "give it another `corner` or `side`, or have fewer plots and labels there";
     assert_eq!(
-        of_plots(&format!("{small}{}", plots(&["a", "b", "c", "d", "e"], ""))),
+        of_plots(&format!("{small}{}", plots(&["a", "b", "c", "d", "e"], corner))),
         ["d", "e"]
             .map(|name| format!("{name}: the plot `{name}` has no room: it leaves the picture: {help}"))
     );
