@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # The scenes, each with the time (s) of the frame that shows it best.
-moments='parabola:16 damped_spring:2.4 tumbling_box:7.04 wing_nut:3.5 explicit_euler:11.6 euler_cromer:11.6 feather_and_stone:0.9
+moments='parabola:16 damped_spring:0.4 tumbling_box:7.04 wing_nut:3.5 explicit_euler:11.6 euler_cromer:11.6 feather_and_stone:0.9
     figure_eight:1.2 pleiades:1.5 thousand_years:600 trojans:120 crossed_fields:7 shapes:0.4 atom:5e-17 planets:5e8 string_of_balls:1.6 hammer:0.6 mesh:1.4
     projectile:2 crank:1.1 dominoes:0 scattered_balls:0 precession:2 heavy_top:3.2
     foucault:24 magnetic_bottle:8 lennard_jones_gas:1 four_bar:2.2 piston:3.4 cradle:0.2 gears:1 shaken_chain:3 chaos:7.2
