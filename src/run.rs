@@ -108,7 +108,15 @@ impl<'a> Run<'a> {
         let of_motion = motion_warnings::all(self.scene(), self.survey());
         let not_drawn = plan.not_drawn().iter().map(not_drawn::warning);
         let plots = plan.unseen_plots().iter().map(|unseen| not_drawn::of_plot(self.scene(), unseen));
-        of_motion.into_iter().chain(thin).chain(small).chain(gone).chain(grid).chain(not_drawn).chain(plots).collect()
+        of_motion
+            .into_iter()
+            .chain(thin)
+            .chain(small)
+            .chain(gone)
+            .chain(grid)
+            .chain(not_drawn)
+            .chain(plots)
+            .collect()
     }
 
     /// Returns all warnings about the simulation and its images, with the texts of the scene that they point into.

@@ -139,7 +139,8 @@ pub use selection::Selection;
 pub use snapshots::Snapshots;
 pub use span::{Bounds, Span};
 pub use survey::{
-    ContactTotals, Corrected, Crossing, CurvePoint, LeftOut, Outliers, Spread, StretchedJoint, Survey, Surveyor, survey,
+    ContactTotals, Corrected, Crossing, CurvePoint, LeftOut, Outliers, Spread, StretchedJoint, Survey,
+    Surveyor, survey,
 };
 pub use swarms::Swarms;
 pub(crate) use vectors::anchors;

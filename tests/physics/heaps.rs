@@ -191,7 +191,8 @@ fn piles_of_logs_roll_apart() {
         )
     };
     for (rows, friction, expected) in [(2, 0.245, 0.2742), (2, 0.26, 0.1940), (3, 0.05, 0.8932)] {
-        for (contacts, step) in [("event-driven", 0.001), ("time-stepping", 0.004), ("time-stepping", 0.001)] {
+        for (contacts, step) in [("event-driven", 0.001), ("time-stepping", 0.004), ("time-stepping", 0.001)]
+        {
             let frames = frames(&scene(rows, contacts, friction, step));
             let farthest = |axis: fn(DVec3) -> f64| {
                 let of = |frame: &jabuka::simulate::Frame| {
@@ -201,7 +202,10 @@ fn piles_of_logs_roll_apart() {
             };
             let [across, along] = [farthest(|at| at.x), farthest(|at| at.z)];
             assert!(along < 0.01, "{rows} rows, {contacts}, {step} s: a log went {along} m along its axis");
-            assert!((across - expected).abs() < 0.01 * expected, "{rows} rows, {contacts}, {step} s: {across}");
+            assert!(
+                (across - expected).abs() < 0.01 * expected,
+                "{rows} rows, {contacts}, {step} s: {across}"
+            );
         }
     }
 }

@@ -83,7 +83,12 @@ fn logs_side_by_side_have_the_gap_of_their_sides() {
     );
     let pb = turned(
         at(3.4941168761444083e-9, 0.26940071070234833, 1.4152146906186866e-9),
-        DQuat::from_xyzw(0.7071067802809472, -7.743983674361987e-8, -7.800910286739715e-8, 0.7071067820921394),
+        DQuat::from_xyzw(
+            0.7071067802809472,
+            -7.743983674361987e-8,
+            -7.800910286739715e-8,
+            0.7071067820921394,
+        ),
     );
     let gap = (pb.location - pa.location).length() - 0.2;
     let found = near(&LOG, &pa, &LOG, &pb);

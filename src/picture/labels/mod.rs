@@ -105,7 +105,8 @@ impl Labels {
         let labels: Vec<Planned> = scene.labels.iter().map(plan).collect();
         let layout = |time| Layout::new(&labels, time, taken.clone(), (free, aspect));
         let layouts = times(&scene.labels).into_iter().map(layout).collect();
-        let (note_height, sign) = (usual_height(DEFAULT_LABEL_HEIGHT, LEAST_PIXELS, scene.output), scene.output.decimal);
+        let (note_height, sign) =
+            (usual_height(DEFAULT_LABEL_HEIGHT, LEAST_PIXELS, scene.output), scene.output.decimal);
         Labels { labels, layouts, measures, aspect, note_height, sign }
     }
 

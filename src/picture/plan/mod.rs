@@ -270,7 +270,11 @@ impl Plan {
     /// The parts of springs and joints that are drawn in a frame.
     pub fn links(&self, frame: &Frame) -> Vec<Thing<'_>> {
         // The sizes of a moving camera take time.
-        if self.links.is_empty() { Vec::new() } else { self.links.at(frame, self.sizes(frame).lines.thinnest) }
+        if self.links.is_empty() {
+            Vec::new()
+        } else {
+            self.links.at(frame, self.sizes(frame).lines.thinnest)
+        }
     }
 
     /// All parts of springs and joints, including those that are not drawn in some frames.
