@@ -202,9 +202,9 @@ fn too_small(scene: &Scene, plan: &Plan, largest: &Largest) -> Diagnostic {
     let follow = format!("`follow = {{ body = \"{name}\" }}` in [camera] goes along with it");
     let has_trail = scene.bodies.iter().any(|body| *body.name == **name && body.showing.trail.is_some());
     let trail = if has_trail { "" } else { ", `trail = true` shows its way" };
+    let scale = largest.fit(plan.part()).map_or_else(String::new, |fit| format!(" = {}", rounded(fit)));
     let others = format!(
-        "`look.scale = {}` draws it larger{trail}; or shorten `simulation.duration`, or give a `[camera]`",
-        rounded(largest.fit)
+        "`look.scale{scale}` draws it larger{trail}; or shorten `simulation.duration`, or give a `[camera]`"
     );
     let help = if is_followed { others } else { format!("{follow}; {others}") };
     Diagnostic::warning(Code::TooSmall, message).help(help)

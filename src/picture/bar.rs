@@ -12,7 +12,7 @@ use super::stage::Scenery;
 use super::text::{MARGIN, Text, Vertical, across_free, is_top, usual_height};
 use crate::decimal::round_below;
 use crate::font::Typeface;
-use crate::scene::{Color, DecimalSign, ScaleBar, Scene};
+use crate::scene::{Color, DecimalSign, Output, ScaleBar, Scene};
 
 /// A scale bar in the image plane, where the picture has a width of 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,10 +54,15 @@ pub(super) struct ScaleBars {
     sign: DecimalSign,
 }
 
+/// The height of a scale bar's number in the image plane.
+pub(super) fn letters(output: Output) -> f64 {
+    usual_height(SIZE, LEAST_PIXELS, output)
+}
+
 impl ScaleBars {
     pub(super) fn new(scene: &Scene, bar: ScaleBar, scenery: &Scenery, ink: Color) -> ScaleBars {
         let middle = (scenery.bounds.min + scenery.bounds.max) / 2.0;
-        let height = usual_height(SIZE, LEAST_PIXELS, scene.output);
+        let height = letters(scene.output);
         ScaleBars { bar, middle, height, ink, free: plots::free(scene), sign: scene.output.decimal }
     }
 

@@ -135,9 +135,12 @@ impl FramedRun {
         {
             return along;
         }
-        if in_whole >= MIN_VISIBLE_WIDTH {
+        let framed_whole = || {
             let left_out = outliers.map(|outliers| outliers.bodies.clone()).unwrap_or_default();
-            return FramedRun { left_out, ..framed(all, FramedPart::Whole) };
+            FramedRun { left_out, ..framed(all, FramedPart::Whole) }
+        };
+        if in_whole >= MIN_VISIBLE_WIDTH {
+            return framed_whole();
         }
         let come = all_have_come(scene);
         let reaching = |least: f64| {
@@ -145,7 +148,7 @@ impl FramedRun {
         };
         match reaching(PREFERRED_WIDTH_AT_START).or_else(|| reaching(MIN_VISIBLE_WIDTH)) {
             Some(start) => framed(&start, FramedPart::Start(start.until)),
-            None => framed(all, FramedPart::Whole),
+            None => framed_whole(),
         }
     }
 }

@@ -16,7 +16,7 @@ use crate::simulate::{Frame, TrailPath, TrailPoint};
 const DEFAULT_TRAIL_COLOR: Color = Color([0.93, 0.55, 0.08]);
 /// The width of a trail, relative to the smallest visible distance. A trail is some pixels wide.
 const TRAIL_WIDTH: f64 = 50.0;
-/// The width of a tapering trail at its oldest point, relative to that at the body, where this has no gaps.
+/// The width of a tapering trail at its oldest point, relative to that at the body, unless that would leave gaps.
 const TAIL: f64 = 0.15;
 /// The number of pieces in a stretch. A piece connects the points of two stored frames.
 const PIECES_PER_STRETCH: usize = 32;
@@ -354,6 +354,7 @@ mod tests {
         let remembered = often.trails[0].stretches.made.lock().unwrap();
         assert!((17..=MAX_CACHED_STRETCHES).contains(&remembered.len()), "{}", remembered.len());
     }
+
     /// The tail of a tapering trail has the width of the thinnest line, if that is more than a part of its own width.
     #[test]
     fn a_tail_is_wide_enough_to_have_no_gaps() {

@@ -35,8 +35,9 @@ impl Solver {
         self.unknown.fill(0.0);
         let depths = goals.iter().enumerate().map(|(row, goal)| goal / self.unit(row));
         let deepest = depths.fold(0.0, f64::max);
-        // Where bodies are wedged, the acceleration can go astray. At the foot of a stack, a shift moves each body above.
-        let bound = deepest * goals.len() as f64;
+        // Where bodies are wedged, the acceleration can go astray. In a stack, the impulses grow with the square of the number of bodies.
+        #[allow(clippy::cast_precision_loss, reason = "there are fewer rows")]
+        let bound = deepest * (goals.len() * goals.len()) as f64;
         self.sweep_until(Stopping::fast(SEPARATION_SWEEP_TOLERANCE * deepest).within(bound), |solver| {
             solver.sweep_rows(&goals, Purpose::Impact)
         });

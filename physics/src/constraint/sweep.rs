@@ -55,11 +55,6 @@ impl Stopping {
         Stopping { tolerance, most: MAX_SWEEPS, is_fast: true, bound: f64::INFINITY }
     }
 
-    /// As many sweeps without acceleration.
-    pub(super) const fn plain(tolerance: f64) -> Stopping {
-        Stopping { is_fast: false, ..Stopping::fast(tolerance) }
-    }
-
     /// The same with another largest number of sweeps.
     pub(super) const fn at_most(self, most: usize) -> Stopping {
         Stopping { most, ..self }

@@ -1,12 +1,12 @@
 //! Places labels in the corners and in the center of a picture, one below another.
 
+use super::super::bar;
 use super::super::framing::Free;
-use super::super::grid;
 use super::super::occupancy::Rectangle;
 use super::super::text::{LINE, MARGIN, Vertical, across_free, below, is_top};
 use super::Planned;
 use super::lines::Block;
-use crate::scene::{Corner, LabelPlace};
+use crate::scene::{Corner, LabelPlace, Output};
 
 /// The places of the labels that are visible from a time on, until the next layout.
 #[derive(Clone, Debug)]
@@ -97,13 +97,13 @@ pub(super) struct Taken {
 }
 
 /// The rectangle of a scale bar, whose length is at most a quarter of the picture's width.
-pub(super) fn under_bar(corner: Corner, aspect: f64, free: Free) -> Taken {
+pub(super) fn under_bar(corner: Corner, output: Output, free: Free) -> Taken {
     let (x, align) = across_free(corner, free);
     let left = x - 0.5 * align;
     Taken {
         is_top: is_top(corner),
         across: [left, left + 0.5],
-        inset: [0.0, MARGIN + 4.0 * aspect * grid::SIZE],
+        inset: [0.0, MARGIN + 2.0 * bar::letters(output)],
     }
 }
 

@@ -96,7 +96,7 @@ impl Labels {
         let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
         let free = plots::free(scene);
         let mut taken: Vec<Taken> =
-            scene.scale_bar.map(|bar| under_bar(bar.corner, aspect, free)).into_iter().collect();
+            scene.scale_bar.map(|bar| under_bar(bar.corner, scene.output, free)).into_iter().collect();
         taken.extend(panels.flat_map(|area| under_plot(area, aspect)));
         let plan = |label: &Label| Planned {
             block: Block::new(label, free, scene.output),

@@ -11,8 +11,10 @@ use crate::simulate::{Bounds, Survey};
 
 /// The width below which a body looks like a dot, pixels.
 const SMALLEST_SEEN: f64 = 4.0;
-/// The width of a body that is clearly visible, pixels.
-const CLEARLY_SEEN: f64 = 12.0;
+/// The width of a body that is clearly visible, pixels, and as a part of the picture's width: 12 pixels of 1280.
+const CLEARLY_SEEN: [f64; 2] = [12.0, 0.0094];
+/// The largest value of `look.scale` that is worth a suggestion.
+const MAX_SCALE: f64 = 1e6;
 
 /// The largest body of those that move or, if none does, of all, and its size in the picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,8 +25,10 @@ pub struct Largest {
     pub is_below_fixed: bool,
     /// The largest width of the body in any picture, pixels.
     pub pixels: f64,
-    /// The value of `look.scale` that would draw the body with a clearly visible size, if the camera framed the whole run.
-    pub fit: f64,
+    /// The factor by which the body is drawn larger than it is.
+    scale: f64,
+    /// The width with which the body would be clearly visible, pixels.
+    clear: f64,
     /// The width that the body would have if the camera framed the whole run, pixels.
     pub pixels_in_whole: f64,
 }
@@ -49,9 +53,17 @@ impl Largest {
             name: body.name.to_string(),
             is_below_fixed: scene.bodies.iter().any(|other| half_width(other) > half_width(body)),
             pixels: pixels(narrowest_view(scene, eye, whole.bounds)),
-            fit: round_above(body.look.scale * CLEARLY_SEEN / pixels_in_whole),
+            scale: body.look.scale,
+            clear: CLEARLY_SEEN[0].max(CLEARLY_SEEN[1] * f64::from(scene.output.width)),
             pixels_in_whole,
         })
+    }
+
+    /// Returns the value of `look.scale` with which the body is clearly visible in a picture of the whole run. `None` if no such value helps.
+    pub fn fit(&self, part: FramedPart) -> Option<f64> {
+        let pixels = if part == FramedPart::Whole { self.pixels } else { self.pixels_in_whole };
+        let fit = round_above(self.scale * self.clear / pixels);
+        (fit > self.scale && fit <= MAX_SCALE).then_some(fit)
     }
 
     /// Returns true if a warning must say that the body is too small. If the camera shows the whole run, this is so if the body is smaller

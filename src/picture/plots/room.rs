@@ -1,8 +1,8 @@
 //! The room that a plot has in the picture. A plot at a side takes its room from the bodies, which the camera frames in the rest of the
 //! picture. A plot in a corner shares it with other plots, labels and the scale bar.
 
+use super::super::bar;
 use super::super::framing::Free;
-use super::super::grid;
 use super::super::labels;
 use super::super::text::{MARGIN, Vertical, across_free, is_top, usual_height};
 use super::{PlannedPlot, color_bar};
@@ -146,8 +146,8 @@ fn line(output: Output) -> f64 {
 
 /// Returns the height that the scale bar and plots use in a place. `before` are the plots that stand in the picture already.
 fn used(scene: &Scene, place: PlotPlace, before: &[PlannedPlot]) -> f64 {
-    let bar = scene.scale_bar.filter(|bar| PlotPlace::Corner(bar.corner) == place);
-    let bar = bar.map_or(0.0, |_| 4.0 * aspect(scene.output) * grid::SIZE);
+    let scale_bar = scene.scale_bar.filter(|bar| PlotPlace::Corner(bar.corner) == place);
+    let bar = scale_bar.map_or(0.0, |_| 2.0 * bar::letters(scene.output));
     let before = scene.plots.iter().zip(before).filter(|(other, _)| other.place == place);
     bar + before.map(|(_, planned)| planned.size[1] + GAP).sum::<f64>()
 }
@@ -191,9 +191,7 @@ fn others(scene: &Scene, place: PlotPlace) -> f64 {
         return 0.0;
     }
     let is_here = |corner: Corner| column(PlotPlace::Corner(corner)) == column(place);
-    let bar = scene
-        .scale_bar
-        .filter(|bar| is_here(bar.corner))
-        .map_or(0.0, |_| 4.0 * aspect(scene.output) * grid::SIZE);
+    let bar =
+        scene.scale_bar.filter(|bar| is_here(bar.corner)).map_or(0.0, |_| 2.0 * bar::letters(scene.output));
     bar + labels::least_room(scene, is_here) + color_bar::heights(scene, line(scene.output), is_here)
 }

@@ -51,7 +51,7 @@ pub(super) fn read(
 
 impl<'b, 'c> Plots<'_, 'b, 'c> {
     /// Returns the place of a plot. Without a given one, a plot stands beside the bodies, where a camera without a given place shows nothing.
-    fn place(&self, view: &View<'_>, width: Option<f64>) -> PlotPlace {
+    fn place(&self, view: &View<'_>) -> PlotPlace {
         let named_corner = |word: &str| Corner::ALL.into_iter().find(|corner| corner.name() == word);
         match (view.get(&plot::SIDE), view.get(&plot::CORNER).and_then(named_corner)) {
             (Some("left"), _) => PlotPlace::Left,
@@ -60,13 +60,16 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             (None, None) => {
                 let (seen_by, output) = (self.root.table(&scene::CAMERA), self.root.table(&scene::OUTPUT));
                 let places = [&camera::LOCATION.spec, &camera::KEYFRAMES.spec, &camera::FOLLOW.spec];
+                let is_narrow = |plot: &View<'_>| {
+                    plot.get(&plot::WIDTH).is_none_or(|width| width <= Plot::MAX_WIDTH_AT_SIDE)
+                };
                 let is_given = places.into_iter().any(|key| seen_by.has(key));
                 // Plots in corners share their room with those in the same corner, and not with those at the side.
                 let plots = self.root.named(&scene::PLOT);
-                let has_corners = plots.iter().any(|(_, _, other)| other.has(&plot::CORNER));
+                let has_corners =
+                    plots.iter().any(|(_, _, other)| other.has(&plot::CORNER) || !is_narrow(other));
                 let is_wide = output.get(&output::SIZE).first() >= output.get(&output::SIZE).get(1);
-                let is_narrow = width.is_none_or(|width| width <= Plot::MAX_WIDTH_AT_SIDE);
-                if is_given || has_corners || !is_wide || !is_narrow {
+                if is_given || has_corners || !is_wide {
                     PlotPlace::Corner(Corner::TopRight)
                 } else {
                     PlotPlace::Right
@@ -108,7 +111,7 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             self.report(view.span(&plot::X_RANGE), message, "both values must be greater than 0");
         }
         let width = view.get(&plot::WIDTH);
-        let place = self.place(view, width);
+        let place = self.place(view);
         if !matches!(place, PlotPlace::Corner(_))
             && width.is_some_and(|width| width > Plot::MAX_WIDTH_AT_SIDE)
         {

@@ -167,14 +167,14 @@ table! {
         .default("none")
         .also(&["caption", "text"]),
     CORNER: Option<value::Text> = KeySpec::new("corner", Choice(corners), "Its corner of the picture; several stand below each other")
-        .default("top-right, if there is no `side`")
+        .default("none: it stands at a `side`; top-right where that has no default")
         .also(&["place", "position", "location", "at"]),
     SIDE: Option<value::Text> = KeySpec::new(
         "side",
         Choice(sides_of_plots),
         "Its side of the picture, instead of a corner: a camera without a location shows the bodies beside it",
     )
-    .default("right, so that it hides nothing; none if a plot has a `corner`, `[camera]` has a place, or the picture is higher than wide"),
+    .default("right, so that it hides nothing; none if a plot has a `corner` or a `width` above 0.4, `[camera]` has a place, or the picture is higher than wide"),
     WIDTH: Option<f64> = KeySpec::new("width", Number(Bound::From(0.1, 1.0)), "Its width, as part of the picture's width; at a side at most 0.4; with 1, it fills the picture")
         .default("0.36, and more in small pictures")
         .also(&["size"]),

@@ -98,7 +98,7 @@ table! {
         Either(&[Choice(presets), Table(&environment::TABLE)]),
         "Ground, sky, fog and default lights: a name is short for `environment.preset`",
     )
-    .default("\"daylight\"")
+    .default("\"daylight\"; \"space\" if a `gravitation` acts, without `simulation.gravity` and `simulation.contacts`")
     .also(&["world"]),
     LABEL: Any = labels::LABEL,
     PLOT: Any = labels::PLOT,

@@ -9,6 +9,10 @@ use super::super::sweep::Stopping;
 use super::island::Rows;
 use super::{Body, Island, Pile};
 
+/// The largest shift of a body that is taken without a check, relative to the sum of the deepest overlap over all contacts of its island. It
+/// is more than 1, since a body may have to turn about a point far from its center.
+const MAX_SHIFT: f64 = 10.0;
+
 impl Pile {
     /// Measures the overlaps of bodies at a state. Returns true if any of them is too deep to be ignored.
     pub(crate) fn are_within(&mut self, model: &Model, state: &State) -> bool {
@@ -49,11 +53,10 @@ impl Pile {
 
     /// Moves the bodies of an island apart, until a sweep moves none by more than `tolerance`, m.
     fn part(&mut self, island: &Island, tolerance: f64, state: &mut State) {
-        // At the foot of a stack, a shift moves each body above. Where bodies are wedged, the acceleration can go astray: shifts then grow without
-        // changing any gap.
+        // The shifts in a stack add up. Where bodies are wedged, the acceleration can go astray: shifts then grow without changing any gap.
         let points = &self.points[island.points.clone()];
         let deepest = points.iter().map(|point| -point.gap).fold(0.0, f64::max);
-        let bound = deepest * points.len() as f64;
+        let bound = MAX_SHIFT * deepest * points.len() as f64;
         for point in &mut self.points[island.points.clone()] {
             point.respond(&self.bodies);
             point.goal = DVec3::X * -point.gap;
@@ -65,7 +68,7 @@ impl Pile {
             for body in &mut self.bodies[island.bodies.clone()] {
                 [body.velocity, body.angular_velocity] = body.free;
             }
-            self.sweep(island, Stopping::plain(tolerance), Rows::Normals);
+            self.sweep(island, Stopping::patient(tolerance), Rows::Normals);
         }
         for body in self.bodies[island.bodies.clone()].iter().filter(|body| body.moves()) {
             state.location[body.index] += body.velocity;
