@@ -20,6 +20,10 @@ const SEAM_TOLERANCE: f64 = 1e-7;
 const INITIAL_SEARCH_DISTANCE: f64 = 0.25;
 /// Convex parts overlap deeply if they do by more than this fraction of the smaller one's size.
 pub(super) const DEEP_OVERLAP: f64 = 1e-3;
+/// A small gap by GJK is exact to within this fraction of the larger part's size.
+const GAP_TOLERANCE: f64 = 1e-6;
+/// The largest distance of the closest points of deeply overlapping parts from the center of each part, relative to its size.
+const MAX_DISTANCE_IF_DEEP: f64 = 10.0;
 /// The largest number of pairs of features of two convex parts that are compared without a guess by GJK.
 const MAX_PAIRS_WITHOUT_GUESS: usize = 16;
 
@@ -233,11 +237,12 @@ fn convex(a: &ConvexPart, pa: &Pose, b: &ConvexPart, pb: &Pose) -> ClosestPoints
         let places = [pa.local(guess.on[0]), pb.local(guess.on[1])];
         let radii = [a.radius, b.radius];
         search.pairs(|i, feature| feature.is_near(places[i], radii[i], tolerance));
-        if let Some(found) = search.answer() {
+        let gap = guess.gap - a.radius - b.radius;
+        if let Some(found) = search.answer(gap) {
             return found;
         }
         let on = [guess.on[0] + a.radius * guess.normal, guess.on[1] - b.radius * guess.normal];
-        search.consider(ClosestPoints { gap: guess.gap - a.radius - b.radius, normal: guess.normal, on });
+        search.consider(ClosestPoints { gap, normal: guess.normal, on });
     }
     search.pairs(|_, _| true);
     match search.best {
@@ -396,8 +401,9 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the best candidate if it is certain: its points are on the convex parts, and its gap is the separation along its normal.
-    fn answer(&self) -> Option<ClosestPoints> {
+    /// Returns the best candidate if it is certain: its points are on the convex parts, and its gap is the separation along its normal. `guess` is
+    /// the gap by GJK, m.
+    fn answer(&self, guess: f64) -> Option<ClosestPoints> {
         let (along, found) = self.best?;
         let parts = [(self.a, self.pa, found.on[0]), (self.b, self.pb, found.on[1])];
         let is_on = |(part, pose, place): (&ConvexPart, &Pose, DVec3)| {
@@ -405,10 +411,24 @@ impl<'a> Search<'a> {
             part.features.iter().any(|feature| feature.holds(place, FEATURE_TOLERANCE * part.bound))
         };
         let is_exact = (found.gap - along).abs() <= 4.0 * self.digits;
-        // The closest points of overlapping convex parts may lie outside of the features. If they overlap deeply, the guess may be wrong.
-        let is_shallow = along <= 0.0 && along > -DEEP_OVERLAP * self.a.bound.min(self.b.bound);
-        let is_certain = is_exact && (is_shallow || parts.into_iter().all(is_on));
-        is_certain.then_some(ClosestPoints { gap: along, ..found })
+        // The closest points of overlapping convex parts may lie outside of the features. Almost parallel sides cross far outside of the parts: there,
+        // the separation is smaller than GJK's.
+        let is_within = |times: f64| {
+            let is_near = |(part, pose, place): (&ConvexPart, &Pose, DVec3)| {
+                pose.point(part.centre).distance(place) <= times * part.bound
+            };
+            parts.into_iter().all(is_near)
+        };
+        let (smallest, largest) = (self.a.bound.min(self.b.bound), self.a.bound.max(self.b.bound));
+        let is_certain = if along > 0.0 {
+            parts.into_iter().all(is_on)
+        } else if along > -DEEP_OVERLAP * smallest {
+            along >= guess - GAP_TOLERANCE * largest && is_within(1.0 + GUESS_TOLERANCE)
+        } else {
+            // The gap by GJK of deep overlaps is not exact.
+            is_within(MAX_DISTANCE_IF_DEEP)
+        };
+        (is_exact && is_certain).then_some(ClosestPoints { gap: along, ..found })
     }
 
     /// Returns a vector from the first part to the second in the body axes of the first, and the opposite vector in those of the second.
