@@ -198,7 +198,7 @@ fn a_ball_is_where_the_scripts_put_it() {
 #[test]
 fn what_turns_is_where_the_scripts_put_it() {
     assert_same_poses("tumbling_box");
-    assert_same_poses("hammer");
+    assert_same_poses("wing_nut");
     assert_same_poses("mesh");
 }
 
