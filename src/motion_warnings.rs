@@ -3,7 +3,7 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::physics::LawResidual;
 use crate::picture::number::rounded;
-use crate::scene::{ContactLaw, Scene, is_by_moreau, thinnest};
+use crate::scene::{ContactLaw, Scene, thinnest};
 use crate::simulate::{ContactTotals, Corrected, Crossing, Overlap, StretchedJoint, Survey};
 
 /// Returns all warnings about the motion in a simulated scene, such as bodies that pass through planes or each other, and an energy that drifts.
@@ -145,15 +145,12 @@ fn broken(scene: &Scene, residual: &LawResidual) -> Diagnostic {
         .help("what follows is not right; take a smaller `simulation.step`")
 }
 
-/// Returns a warning if contacts or joints give much energy to the bodies under time-stepping.
+/// Returns a warning if contacts or joints give much energy to the bodies.
 fn energy_added(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
     /// The largest energy that needs no warning, as a fraction of the energy that the drift is relative to.
     const ALLOWED: f64 = 0.05;
-    if scene.simulation.contacts != Some(ContactLaw::TimeStepping) {
-        return None;
-    }
     let totals = survey.contacts?;
-    let (source, taken) = largest_gain(&totals, is_by_moreau(&scene.bodies))?;
+    let (source, taken) = largest_gain(&totals, !scene.is_for_many_bodies())?;
     let adds = if source == "friction" { "adds" } else { "add" };
     let message = format!(
         "{source} {adds} {} J to the energy of the bodies, but can only take energy",
@@ -164,8 +161,8 @@ fn energy_added(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
 }
 
 /// Returns the name of what takes the least energy from the bodies, and the energy that it takes, J. It is negative if energy is added.
-fn largest_gain(totals: &ContactTotals, is_by_moreau: bool) -> Option<(&'static str, f64)> {
-    let sources = if is_by_moreau {
+fn largest_gain(totals: &ContactTotals, has_exact_joints: bool) -> Option<(&'static str, f64)> {
+    let sources = if has_exact_joints {
         // Moreau's scheme checks the sum of all impulses at each part of a step, but impacts can take what friction adds, and the reverse.
         vec![("friction", totals.rubbed), ("contacts", totals.lost)]
     } else {

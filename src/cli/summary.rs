@@ -6,7 +6,7 @@ use std::time::Duration;
 use crate::diagnostic::visible_path;
 use crate::output::Written;
 use crate::physics::LawResidual;
-use crate::scene::{ContactLaw, is_by_moreau};
+use crate::scene::{ContactLaw, why_for_many_bodies};
 use crate::simulate::{ContactTotals, EnergyScale};
 use crate::{Run, Scene};
 
@@ -72,7 +72,7 @@ pub(super) fn summary(
         contacts = survey
             .contacts
             .zip(scene.simulation.contacts)
-            .map(|(totals, law)| contacts(totals, law, scheme(scene), survey.drift_energy))
+            .map(|(totals, law)| contacts(totals, law, &scheme(scene), survey.drift_energy))
             .unwrap_or_default(),
         laws = laws(&survey.laws),
         report = report(scene, path, survey.drift),
@@ -126,9 +126,12 @@ fn contacts(totals: ContactTotals, law: ContactLaw, scheme: &str, scale: f64) ->
     format!("{taken}contacts  {scheme}bodies {depth} m within each other at most{gap}\n")
 }
 
-/// Returns how time stepping solves the contacts of a scene, if it is not the engine for many bodies.
-fn scheme(scene: &Scene) -> &'static str {
-    if is_by_moreau(&scene.bodies) { "by Moreau's scheme; " } else { "" }
+/// Returns what computes the contacts of a scene with time stepping, and why.
+fn scheme(scene: &Scene) -> String {
+    let reason = why_for_many_bodies(&scene.bodies);
+    let by = reason
+        .map_or_else(|| "Moreau's scheme".to_owned(), |why| format!("the engine for many bodies ({why})"));
+    format!("by {by}; ")
 }
 
 /// Returns the line with the worst residual of the laws that no contact can break. Empty if there are none.

@@ -203,7 +203,8 @@ struct Trail {
     /// The radius of the trail, m. `None` if the scene sets no width: the trail then has the line width of the frame.
     radius: Option<f64>,
     color: Color3,
-    tapers: bool,
+    /// The width at the oldest point, relative to that at the body.
+    tail: f64,
     /// The index of the color map. `None` for a trail of one color.
     map: Option<usize>,
     /// The color at each `every`-th frame, as an index into the colors of the map. Empty for a trail of one color.
@@ -458,7 +459,7 @@ fn trail(scene: &Scene, plan: &Plan, values: &TrailValues, planned: &crate::pict
         body,
         radius,
         color: planned.color.0,
-        tapers: planned.tapers,
+        tail: planned.tail / planned.radius,
         map,
         shades: shades.unwrap_or_default(),
         every: values.every,

@@ -54,15 +54,20 @@ pub(super) struct ScaleBars {
     sign: DecimalSign,
 }
 
-/// The height of a scale bar's number in the image plane.
-pub(super) fn letters(output: Output) -> f64 {
+/// Returns the height that a scale bar with its number needs in the image plane.
+pub(super) fn room(output: Output) -> f64 {
+    2.0 * number_height(output)
+}
+
+/// Returns the height of a scale bar's number in the image plane.
+fn number_height(output: Output) -> f64 {
     usual_height(SIZE, LEAST_PIXELS, output)
 }
 
 impl ScaleBars {
     pub(super) fn new(scene: &Scene, bar: ScaleBar, scenery: &Scenery, ink: Color) -> ScaleBars {
         let middle = (scenery.bounds.min + scenery.bounds.max) / 2.0;
-        let height = letters(scene.output);
+        let height = number_height(scene.output);
         ScaleBars { bar, middle, height, ink, free: plots::free(scene), sign: scene.output.decimal }
     }
 

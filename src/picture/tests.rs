@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Form, FramedPart, Plan, Text, Thing};
-use crate::scene::{ArrowOwner, Options, Override, Scene};
+use crate::scene::{ArrowOwner, Corner, Options, Override, PlotPlace, Preset, Scene};
 use crate::simulate::{Frame, Frames, survey};
 
 fn plan(text: &str) -> (Scene, Plan) {
@@ -294,6 +294,60 @@ fn texts_neither_overlap_nor_leave_the_picture() {
             let least = 10.9 * 2.0 / f64::from(scene.output.width);
             assert!(labels.iter().all(|label| label.height > least || label.name == "head"), "{size}");
         }
+    }
+}
+
+/// Letters follow the shorter side: an upright picture has those of a wide one, of which it shows less.
+#[test]
+fn letters_are_as_large_in_upright_pictures_as_in_wide_ones() {
+    let pixels = |width: u32, height: u32| {
+        let (scene, plan) = plan(&format!(
+            "[body.a]\nshape.sphere.radius = 1\n[label.a]\nbody = 'a'\ntext = 'A'\n[output]\nsize = [{width}, {height}]"
+        ));
+        let frame = frames(&scene).next().unwrap();
+        plan.texts(&frame)[0].height * f64::from(width)
+    };
+    let [wide, upright] = [pixels(960, 540), pixels(540, 960)];
+    assert!((wide - upright).abs() < 1e-9, "{wide} {upright}");
+}
+
+/// Bodies that attract each other are in space, unless the scene says otherwise.
+#[test]
+fn what_attracts_each_other_is_in_space() {
+    let preset = |keys: &str| {
+        let (scene, _) = plan(&format!(
+            "{keys}\n[body.sun]\nshape.sphere.radius = 1\nlocation = [0, 9, 0]\nmass = 1e10
+            [body.planet]\nshape.sphere.radius = 0.1\nlocation = [5, 9, 0]\nvelocity = [0, 0, 0.3]"
+        ));
+        scene.environment.preset
+    };
+    let pull = "force.pull.gravitation = {}\n";
+    assert_eq!(preset(pull), Preset::Space);
+    for keys in [
+        "",
+        &format!("{pull}environment.ground = true"),
+        &format!("{pull}simulation.gravity = [0, -9.81, 0]"),
+        &format!("{pull}simulation.contacts = 'event-driven'"),
+    ] {
+        assert_eq!(preset(keys), Preset::Daylight, "{keys}");
+    }
+}
+
+/// A plot without a place stands beside the bodies, if the camera is free to leave it room there.
+#[test]
+fn a_plot_without_a_place_stands_beside_the_bodies() {
+    let place = |keys: &str| {
+        let (scene, _) = plan(&format!(
+            "simulation.duration = 1\n[body.a]\nshape.sphere.radius = 1\nvelocity = [1, 0, 0]
+            [plot.p]\ny = 'a.x'\n{keys}"
+        ));
+        scene.plots[0].place
+    };
+    assert_eq!(place(""), PlotPlace::Right);
+    let in_a_corner = PlotPlace::Corner(Corner::TopRight);
+    let camera = "[camera]\nlocation = [0, 0, -9]\nlook_at = [0, 0, 0]";
+    for keys in [camera, "[output]\nsize = [540, 960]", "[plot.q]\ny = 'a.y'\ncorner = 'bottom-left'"] {
+        assert_eq!(place(keys), in_a_corner, "{keys}");
     }
 }
 

@@ -16,8 +16,8 @@ use crate::simulate::{Frame, TrailPath, TrailPoint};
 const DEFAULT_TRAIL_COLOR: Color = Color([0.93, 0.55, 0.08]);
 /// The width of a trail, relative to the smallest visible distance. A trail is some pixels wide.
 const TRAIL_WIDTH: f64 = 50.0;
-/// The width of a tapering trail at its oldest point, relative to that at the body, unless that would leave gaps.
-const TAIL: f64 = 0.15;
+/// The smallest width of a tapering trail at its oldest point, relative to that at the body.
+const MIN_TAIL_WIDTH: f64 = 0.15;
 /// The number of pieces in a stretch. A piece connects the points of two stored frames.
 const PIECES_PER_STRETCH: usize = 32;
 /// The largest number of stretches of a trail that the cache holds: twice as many as one frame can show.
@@ -69,7 +69,7 @@ impl Trail {
     fn of_width(self, widths: LineWidths) -> Trail {
         let radius = if self.radius > 0.0 { self.radius } else { widths.stroke / 2.0 };
         let tail = match self.tapers {
-            true => (TAIL * radius).max(widths.thinnest / 2.0).min(radius),
+            true => (MIN_TAIL_WIDTH * radius).max(widths.thinnest / 2.0).min(radius),
             false => radius,
         };
         Trail { radius, tail, ..self }
@@ -365,7 +365,7 @@ mod tests {
             trails.planned(widths).next().unwrap().tail
         };
         assert_eq!(tail("", 0.01), 0.02);
-        assert_eq!(tail("duration = 1", 0.001), TAIL * 0.02);
+        assert_eq!(tail("duration = 1", 0.001), MIN_TAIL_WIDTH * 0.02);
         assert_eq!(tail("duration = 1", 0.01), 0.005);
         assert_eq!(tail("duration = 1, width = 0.006", 0.01), 0.003);
     }

@@ -44,12 +44,20 @@ impl ContactLaw {
 /// bodies. Scenes of this size take some seconds, which is three to fifteen times as long.
 const MAX_BODIES_BY_MOREAU: usize = 60;
 
-/// Returns true if time stepping advances these bodies by Moreau's scheme, with exact joints: forces move only few of them, and none that
-/// collides is a torus, for which no distance is computed. The engine for many bodies advances all others.
+/// Returns true if time stepping advances these bodies by Moreau's scheme, with exact joints. The engine for many bodies advances all others.
 pub fn is_by_moreau(bodies: &[Body]) -> bool {
-    let moving = bodies.iter().filter(|body| !body.start.fixed && body.motion.is_none());
-    moving.count() <= MAX_BODIES_BY_MOREAU
-        && !bodies.iter().any(|body| body.collider.is_some() && body.shape.has_torus())
+    why_for_many_bodies(bodies).is_none()
+}
+
+/// Returns the reason why time stepping needs the engine for many bodies: forces move many of these bodies, or one that collides is a torus,
+/// for which no distance is computed. `None` if Moreau's scheme can advance them.
+pub fn why_for_many_bodies(bodies: &[Body]) -> Option<String> {
+    let moving = bodies.iter().filter(|body| !body.start.fixed && body.motion.is_none()).count();
+    if moving > MAX_BODIES_BY_MOREAU {
+        return Some(format!("more than {MAX_BODIES_BY_MOREAU} move"));
+    }
+    let has_torus = |body: &Body| body.collider.is_some() && body.shape.has_torus();
+    bodies.iter().any(has_torus).then(|| "a torus collides".to_owned())
 }
 
 impl Scene {

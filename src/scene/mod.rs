@@ -121,7 +121,7 @@ pub use asset::{Asset, AssetSource};
 pub use color::Color;
 pub(crate) use color::names as color_names;
 pub use color_map::{ColorMap, Palette};
-pub use contact::{Collider, ContactLaw, is_by_moreau};
+pub use contact::{Collider, ContactLaw, is_by_moreau, why_for_many_bodies};
 pub use drawn_field::{DrawnField, FieldStyle};
 pub use emitter::Emitter;
 pub(crate) use expand::in_string;

@@ -46,6 +46,20 @@ fn arrows_that_no_picture_shows() {
     );
 }
 
+/// Nine balls stay where they are, and a tenth flies 200 m away, out of the picture.
+#[test]
+fn a_body_that_flies_out_of_the_picture() {
+    let text = |velocity: f64| {
+        format!(
+            "simulation.duration = 2\n[body.row]\nshape.sphere.radius = 0.5\nlocation = ['i', 0, 0]\nrepeat = 9
+            [body.runaway]\nshape.sphere.radius = 0.5\nlocation = [9, 0, 0]\nvelocity = [0, {velocity}, 0]\n"
+        )
+    };
+    let [warning] = &said_of(&text(100.0))[..] else { panic!("one warning") };
+    assert!(warning.contains("`runaway`") && !warning.contains("`row"), "{warning}");
+    assert_eq!(said_of(&text(1.0)), [""; 0]);
+}
+
 #[test]
 fn an_arrow_of_a_force_that_no_picture_shows() {
     let force = |scale: &str| format!("{BALL}[force.air.drag]\nlinear = 0.5\narrow.scale = {scale}\n");

@@ -12,6 +12,7 @@ use super::events::VIOLATION_TOLERANCE;
 use super::friction::FrictionPair;
 use super::jacobian::{move_members, products};
 use super::row_modes::Mode;
+use super::separate::MAX_SHIFT;
 use super::solver::Solver;
 
 impl Solver {
@@ -81,20 +82,29 @@ impl Solver {
         if !self.is_idle(model) {
             // The errors of some constraint rows are measured relative to the start of a step.
             self.begin(model, t, state);
-            self.is_ready = false;
-            self.measure(t, state);
-            let (before, gaps) = (self.worst(), state.clone());
-            self.settle_places(t, state);
-            self.measure(t, state);
-            // If constraint rows contradict each other, their gaps cannot all close.
-            if self.worst().is_nan() || self.worst() > before {
-                state.clone_from(&gaps);
-            }
+            self.close_held(t, state);
         }
     }
 
-    /// Closes the gaps of all contacts, also of those that were open or sliding. Limits of joints are corrected only where they are
-    /// exceeded.
+    /// Closes the gaps of the rows that are held, after [`hold`](Self::hold).
+    fn close_held(&mut self, t: f64, state: &mut State) {
+        self.is_ready = false;
+        self.measure(t, state);
+        let held = (0..self.rows.len()).filter(|&row| self.held[row]);
+        let largest = held.map(|row| self.rows[row].violation.abs() / self.unit(row)).fold(0.0, f64::max);
+        let (before, gaps) = (self.worst(), state.clone());
+        self.settle_places(t, state);
+        self.measure(t, state);
+        let moved = state.location.iter().zip(&gaps.location).map(|(now, then)| now.distance(*then));
+        let is_far = moved.fold(0.0, f64::max) > MAX_SHIFT * largest * self.rows.len() as f64;
+        // If constraint rows contradict each other, their gaps cannot all close.
+        if self.worst().is_nan() || self.worst() > before || is_far {
+            state.clone_from(&gaps);
+        }
+    }
+
+    /// Closes the gaps of all contacts, also of those that were open or sliding, as [`close_gaps`](Self::close_gaps) does. Limits of joints
+    /// are corrected only where they are exceeded.
     pub(crate) fn close_all(&mut self, model: &Model, t: f64, state: &mut State) {
         if self.is_idle(model) {
             return;
@@ -117,7 +127,7 @@ impl Solver {
             }
         }
         self.hold();
-        self.settle_places(t, state);
+        self.close_held(t, state);
     }
 
     /// Returns the speed, m/s, below which the bodies at each constraint row count as at rest, one entry per row; 0 for rows of joints and
@@ -147,7 +157,7 @@ impl Solver {
     /// need this call.
     pub(crate) fn set_out(&mut self, span: f64) {
         self.span = span;
-        self.is_unsolved = false;
+        (self.is_unsolved, self.is_implausible) = (false, false);
         self.touched.clear();
         if self.has_modes {
             let laws = self.laws.iter().zip(&self.rows);

@@ -26,7 +26,7 @@ impl Solver {
     /// event. For an open inequality c ≥ 0, the distance is 1 at c = 0. It is negative once an event has happened. `loads` is working
     /// memory.
     pub(crate) fn margin(&mut self, model: &Model, t: f64, state: &State, loads: &mut Loads) -> (f64, usize) {
-        self.is_ready = false;
+        (self.is_ready, self.is_implausible) = (false, false);
         self.measure(t, state);
         let n = self.rows.len();
         let mut rates = vec![0.0; n];
@@ -158,9 +158,10 @@ impl Solver {
         Some(self.contacts[contact].bodies)
     }
 
-    /// Returns true if the equations of sliding friction had no solution in the last step.
+    /// Returns true if the equations of sliding friction had no solution in the last step, or if the contacts at the state of the last
+    /// [`margin`](Self::margin) would need accelerations that nothing causes.
     pub(crate) fn is_unsolved(&self) -> bool {
-        self.is_unsolved
+        self.is_unsolved || self.is_implausible
     }
 
     /// Returns the two bodies of the contact for which the last decision found no consistent mode, and forgets it. `None` if there is no

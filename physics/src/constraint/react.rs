@@ -5,6 +5,10 @@ use super::jacobian::{for_each_direction, magnitude, move_members, product, prod
 use super::row_modes::Mode;
 use super::solver::Solver;
 
+/// The largest plausible acceleration at contacts, relative to [`Solver::typical_acceleration`]. The point of a contact can run along two nearly
+/// parallel lines, or around a nearly flat rim, much faster than the bodies move.
+const MAX_ACCELERATION: f64 = 1e4;
+
 impl Solver {
     /// Adds the constraint forces and torques to the loads of the bodies, and their power.
     pub(crate) fn react(&mut self, model: &Model, t: f64, state: &State, loads: &mut Loads) {
@@ -71,8 +75,8 @@ impl Solver {
     }
 
     /// Solves for the multipliers λ as [`react`](Self::react) does, but adds only the forces of motors at their limits to the loads.
-    /// Writes c'' of each constraint row to `accelerations`, and returns the largest magnitude of its terms, m/s². Those of angles count
-    /// times the size of the mechanism.
+    /// Writes c'' of each constraint row to `accelerations`, and returns the largest magnitude of its terms, m/s², as far as it is plausible.
+    /// Those of angles count times the size of the mechanism.
     pub(super) fn react_seeing(
         &mut self,
         t: f64,
@@ -84,6 +88,7 @@ impl Solver {
         self.push_drives(loads);
         self.see_slips();
         self.solve_forces(t, state, loads);
+        let plausible = MAX_ACCELERATION * self.typical_acceleration(loads);
         let Solver { structure: Some(structure), members, rows, jacobian, unknown, grips, .. } = self else {
             return 0.0;
         };
@@ -93,7 +98,24 @@ impl Solver {
         for (acceleration, row) in accelerations.iter_mut().zip(&*rows) {
             *acceleration += row.bias;
         }
-        size
+        self.is_implausible = size > plausible;
+        size.min(plausible)
+    }
+
+    /// Returns the acceleration that contacts need by its order of magnitude, m/s²: the loads cause it, or motion with the speed v along a curve of the radius r,
+    /// v²/r. Infinite without contacts.
+    fn typical_acceleration(&self, loads: &Loads) -> f64 {
+        let (Some(structure), false) = (&self.structure, self.contacts.is_empty()) else {
+            return f64::INFINITY;
+        };
+        let of_loads = self.members.iter().zip(&structure.bodies).map(|(member, &body)| {
+            let turning = member.turn(loads.torque[body]).length();
+            member.inverse_mass * loads.force[body].length() + structure.length * turning
+        });
+        let of_loads = of_loads.fold(0.0, f64::max);
+        let smallest = self.contacts.iter().map(|contact| contact.size).fold(f64::INFINITY, f64::min);
+        let speed = self.largest_rate + of_loads * self.step;
+        of_loads + speed * speed / smallest
     }
 
     /// Adds the forces of motors at their limits, and their power, to the loads.

@@ -13,6 +13,10 @@ pub(super) const IGNORED_OVERLAP: f64 = 1e-9;
 /// The Gauss–Seidel sweeps that separate bodies end when they move bodies by less than this fraction of the deepest overlap.
 pub(super) const SEPARATION_SWEEP_TOLERANCE: f64 = 1e-5;
 
+/// The largest shift of a body that closes gaps, relative to the sum of the deepest overlap over all contacts. It is more than 1, since a
+/// body may have to turn about a point far from its center.
+pub(super) const MAX_SHIFT: f64 = 10.0;
+
 impl Solver {
     /// Measures the overlaps of bodies at a state. Returns true if any of them is too deep to be ignored.
     /// [`prepare_sweeps`](Self::prepare_sweeps) must have run at a state shortly before.

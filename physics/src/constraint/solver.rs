@@ -48,6 +48,8 @@ pub(crate) struct Solver {
     pub(super) step: f64,
     /// True if the equations of sliding friction had no solution in the present step.
     pub(super) is_unsolved: bool,
+    /// True if contacts would need accelerations that nothing causes, at the state of the last [`Solver::margin`].
+    pub(super) is_implausible: bool,
     /// True while [`Solver::aim`] corrects initial velocities, so that the constraints hold at the end of the step.
     pub(super) is_aiming: bool,
     /// The given motion of each member; `None` for a member that forces move.

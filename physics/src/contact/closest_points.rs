@@ -20,8 +20,6 @@ const SEAM_TOLERANCE: f64 = 1e-7;
 const INITIAL_SEARCH_DISTANCE: f64 = 0.25;
 /// Convex parts overlap deeply if they do by more than this fraction of the smaller one's size.
 pub(super) const DEEP_OVERLAP: f64 = 1e-3;
-/// A small gap by GJK is exact to within this fraction of the larger part's size.
-const GAP_TOLERANCE: f64 = 1e-6;
 /// The largest distance of the closest points of deeply overlapping parts from the center of each part, relative to its size.
 const MAX_DISTANCE_IF_DEEP: f64 = 10.0;
 /// The largest number of pairs of features of two convex parts that are compared without a guess by GJK.
@@ -237,10 +235,10 @@ fn convex(a: &ConvexPart, pa: &Pose, b: &ConvexPart, pb: &Pose) -> ClosestPoints
         let places = [pa.local(guess.on[0]), pb.local(guess.on[1])];
         let radii = [a.radius, b.radius];
         search.pairs(|i, feature| feature.is_near(places[i], radii[i], tolerance));
-        let gap = guess.gap - a.radius - b.radius;
-        if let Some(found) = search.answer(gap) {
+        if let Some(found) = search.answer() {
             return found;
         }
+        let gap = guess.gap - a.radius - b.radius;
         let on = [guess.on[0] + a.radius * guess.normal, guess.on[1] - b.radius * guess.normal];
         search.consider(ClosestPoints { gap, normal: guess.normal, on });
     }
@@ -401,34 +399,22 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the best candidate if it is certain: its points are on the convex parts, and its gap is the separation along its normal. `guess` is
-    /// the gap by GJK, m.
-    fn answer(&self, guess: f64) -> Option<ClosestPoints> {
+    /// Returns the best candidate if it is certain: its gap is the separation along its normal, and its points are on the convex parts. The
+    /// points of a deep overlap may lie outside of the features, but not far from the parts, as the crossing of almost parallel sides does.
+    fn answer(&self) -> Option<ClosestPoints> {
         let (along, found) = self.best?;
-        let parts = [(self.a, self.pa, found.on[0]), (self.b, self.pb, found.on[1])];
-        let is_on = |(part, pose, place): (&ConvexPart, &Pose, DVec3)| {
-            let place = pose.local(place);
-            part.features.iter().any(|feature| feature.holds(place, FEATURE_TOLERANCE * part.bound))
-        };
         let is_exact = (found.gap - along).abs() <= 4.0 * self.digits;
-        // The closest points of overlapping convex parts may lie outside of the features. Almost parallel sides cross far outside of the parts: there,
-        // the separation is smaller than GJK's.
-        let is_within = |times: f64| {
-            let is_near = |(part, pose, place): (&ConvexPart, &Pose, DVec3)| {
-                pose.point(part.centre).distance(place) <= times * part.bound
-            };
-            parts.into_iter().all(is_near)
+        let is_deep = along < -DEEP_OVERLAP * self.a.bound.min(self.b.bound);
+        let is_certain = |(part, pose, place): (&ConvexPart, &Pose, DVec3)| {
+            let place = pose.local(place);
+            if is_deep {
+                place.distance(part.centre) <= MAX_DISTANCE_IF_DEEP * part.bound
+            } else {
+                part.features.iter().any(|feature| feature.holds(place, FEATURE_TOLERANCE * part.bound))
+            }
         };
-        let (smallest, largest) = (self.a.bound.min(self.b.bound), self.a.bound.max(self.b.bound));
-        let is_certain = if along > 0.0 {
-            parts.into_iter().all(is_on)
-        } else if along > -DEEP_OVERLAP * smallest {
-            along >= guess - GAP_TOLERANCE * largest && is_within(1.0 + GUESS_TOLERANCE)
-        } else {
-            // The gap by GJK of deep overlaps is not exact.
-            is_within(MAX_DISTANCE_IF_DEEP)
-        };
-        (is_exact && is_certain).then_some(ClosestPoints { gap: along, ..found })
+        let parts = [(self.a, self.pa, found.on[0]), (self.b, self.pb, found.on[1])];
+        (is_exact && parts.into_iter().all(is_certain)).then_some(ClosestPoints { gap: along, ..found })
     }
 
     /// Returns a vector from the first part to the second in the body axes of the first, and the opposite vector in those of the second.

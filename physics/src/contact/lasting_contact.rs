@@ -150,7 +150,7 @@ impl Constraint for LastingContact {
         let ClosestPoints { gap, normal, on } = meeting;
         let arms = [on[0] - both[0].location, on[1] - both[1].location];
         let [a, b] = &self.touch.patches;
-        let change = ContactRates::of([a, b], both, self.size);
+        let change = ContactRates::of([a, b], both, &meeting, self.size);
         let slipping = slip(&meeting, both);
         // The part of the slip's rate that does not depend on accelerations: the arms change as the contact point moves over both bodies.
         let turning = |i: usize| both[i].angular_velocity.cross(change.place - both[i].velocity);

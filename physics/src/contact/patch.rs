@@ -8,7 +8,7 @@ use super::closest_points::ClosestPoints;
 use super::solid::Pose;
 
 /// Two directions count as parallel if the sine of the angle between them is below this.
-const PARALLEL_SINE: f64 = 1e-9;
+pub(super) const PARALLEL_SINE: f64 = 1e-9;
 
 /// The surface of a body around a contact point, in body axes.
 ///

@@ -10,6 +10,8 @@ use super::solid::{ConvexPart, Core, Pose, Solid};
 
 /// A flat end lies flat on a face, and two sides lie along each other, if the sine of the angle between them is below this.
 const FLAT_CONTACT_SINE: f64 = 1e-7;
+/// Two rims are parallel if the sine of the angle between them is below this.
+const PARALLEL_RIM_SINE: f64 = 1e-3;
 /// Two contact points count as the same if their distance is below this fraction of the smaller body's size, and if the cosine of the angle
 /// between their normals differs from 1 by less than this.
 const SAME_POINT_TOLERANCE: f64 = 1e-6;
@@ -189,8 +191,8 @@ impl Pair<'_> {
         let near_b = placed(self.b, self.pb, self.pa.location, near_b);
         self.add_where(&near_a, &near_b, is_needed);
         if self.found.is_empty() {
-            // A corner touches a corner or an edge. Neither has a unique normal.
-            self.add_where(&near_a, &near_b, Patch::has_no_normal_with);
+            // A corner touches a corner or an edge, or two cones touch at the rims of their bases.
+            self.add_where(&near_a, &near_b, |a, b| a.has_no_normal_with(b) || are_parallel_rims(a, b));
         }
     }
 
@@ -366,13 +368,23 @@ fn farthest(all: Vec<Touch>) -> Vec<Touch> {
 }
 
 /// Returns true if two patches need a contact point of their own. Lines and faces touch a face at their ends and corners, which are
-/// separate patches.
+/// separate patches. Logs side by side touch where the rim of one lies on the side of the other.
 fn is_needed(a: &Patch, b: &Patch) -> bool {
     match (a, b) {
         (Patch::Plane { .. }, other) | (other, Patch::Plane { .. }) => {
             matches!(other, Patch::Point { .. } | Patch::Circle { .. })
         }
-        _ => !a.has_no_normal_with(b),
+        _ => !a.has_no_normal_with(b) && !are_parallel_rims(a, b),
+    }
+}
+
+/// Returns true if two rims face the same way. Where they touch, they have the same direction, so that they have no common normal.
+fn are_parallel_rims(a: &Patch, b: &Patch) -> bool {
+    match (a, b) {
+        (Patch::Circle { axis: u, .. }, Patch::Circle { axis: v, .. }) => {
+            u.dot(*v) > 0.0 && u.cross(*v).length() < PARALLEL_RIM_SINE
+        }
+        _ => false,
     }
 }
 
@@ -410,9 +422,11 @@ mod tests {
         };
         let near_a = near(pair.a, pair.pa, nearest.on[0], nearest.normal);
         let near_b = near(pair.b, pair.pb, nearest.on[1], -nearest.normal);
-        for is_wanted in [is_needed, Patch::has_no_normal_with] {
+        let is_last = |a: &Patch, b: &Patch| a.has_no_normal_with(b) || are_parallel_rims(a, b);
+        for is_wanted in [&is_needed as &dyn Fn(&Patch, &Patch) -> bool, &is_last] {
             for (i, j) in near_a.iter().flat_map(|i| near_b.iter().map(move |j| (*i, *j))) {
-                if is_wanted(&pair.a.features[i].patch, &pair.b.features[j].patch) {
+                let (a, b) = (pair.a.features[i].patch, pair.b.features[j].patch);
+                if is_wanted(&a.placed(pair.pa), &b.placed(pair.pb)) {
                     pair.add(i, j);
                 }
             }

@@ -100,11 +100,7 @@ pub(super) struct Taken {
 pub(super) fn under_bar(corner: Corner, output: Output, free: Free) -> Taken {
     let (x, align) = across_free(corner, free);
     let left = x - 0.5 * align;
-    Taken {
-        is_top: is_top(corner),
-        across: [left, left + 0.5],
-        inset: [0.0, MARGIN + 2.0 * bar::letters(output)],
-    }
+    Taken { is_top: is_top(corner), across: [left, left + 0.5], inset: [0.0, MARGIN + bar::room(output)] }
 }
 
 /// The rectangle of a plot, as seen from the upper and from the lower edge of the picture.

@@ -147,7 +147,7 @@ fn line(output: Output) -> f64 {
 /// Returns the height that the scale bar and plots use in a place. `before` are the plots that stand in the picture already.
 fn used(scene: &Scene, place: PlotPlace, before: &[PlannedPlot]) -> f64 {
     let scale_bar = scene.scale_bar.filter(|bar| PlotPlace::Corner(bar.corner) == place);
-    let bar = scale_bar.map_or(0.0, |_| 2.0 * bar::letters(scene.output));
+    let bar = scale_bar.map_or(0.0, |_| bar::room(scene.output));
     let before = scene.plots.iter().zip(before).filter(|(other, _)| other.place == place);
     bar + before.map(|(_, planned)| planned.size[1] + GAP).sum::<f64>()
 }
@@ -191,7 +191,6 @@ fn others(scene: &Scene, place: PlotPlace) -> f64 {
         return 0.0;
     }
     let is_here = |corner: Corner| column(PlotPlace::Corner(corner)) == column(place);
-    let bar =
-        scene.scale_bar.filter(|bar| is_here(bar.corner)).map_or(0.0, |_| 2.0 * bar::letters(scene.output));
+    let bar = scene.scale_bar.filter(|bar| is_here(bar.corner)).map_or(0.0, |_| bar::room(scene.output));
     bar + labels::least_room(scene, is_here) + color_bar::heights(scene, line(scene.output), is_here)
 }

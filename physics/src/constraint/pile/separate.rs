@@ -4,14 +4,10 @@ use glam::{DQuat, DVec3};
 
 use super::super::super::contact::pose;
 use super::super::super::{Model, State};
-use super::super::separate::{IGNORED_OVERLAP, SEPARATION_SWEEP_TOLERANCE};
+use super::super::separate::{IGNORED_OVERLAP, MAX_SHIFT, SEPARATION_SWEEP_TOLERANCE};
 use super::super::sweep::Stopping;
 use super::island::Rows;
 use super::{Body, Island, Pile};
-
-/// The largest shift of a body that is taken without a check, relative to the sum of the deepest overlap over all contacts of its island. It
-/// is more than 1, since a body may have to turn about a point far from its center.
-const MAX_SHIFT: f64 = 10.0;
 
 impl Pile {
     /// Measures the overlaps of bodies at a state. Returns true if any of them is too deep to be ignored.

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use glam::DVec3;
 
-use super::super::closest_points::ClosestPoints;
+use super::super::closest_points::{ClosestPoints, DEEP_OVERLAP, FEATURE_TOLERANCE};
 use super::{PARALLEL_SINE, Spine, balls, radial};
 
 /// The number of equally spaced angles on the rim. Newton's method starts at the best of them.
@@ -28,6 +28,12 @@ impl Rim {
     fn radials(&self) -> [DVec3; 2] {
         let x = self.axis.any_orthonormal_vector();
         [x, self.axis.cross(x)]
+    }
+
+    /// Returns the edge at the end of a radial unit vector.
+    fn edge(&self, radial: DVec3) -> Edge {
+        let place = self.centre + self.radius * radial;
+        Edge { place, along: self.axis.cross(radial), outward: self.axis + radial }
     }
 
     /// Returns the radial unit vector that points from the rim's axis to a given point. For a point on the axis, any radial direction will
@@ -114,7 +120,8 @@ pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> ClosestPoints {
     if spine.outward == DVec3::ZERO {
         return balls(place, 0.0, foot, spine.radius + spine.taper * s, -radial);
     }
-    crossing(place, rim.axis.cross(radial), rim.axis + radial, foot, v, spine.outward, spine.radius)
+    let edge = Edge { place: foot, along: v, outward: spine.outward };
+    crossing(&rim.edge(radial), &edge, spine.radius, rim.radius)
 }
 
 /// Computes the closest points of two rims.
@@ -137,29 +144,36 @@ pub(super) fn rims(a: Rim, b: Rim) -> ClosestPoints {
         [-d.dot(ta), own - both * both / other]
     });
     let (ra, rb) = (angle.radial(radials), b.towards(place_a(angle)));
-    let places = [a.centre + a.radius * ra, b.centre + b.radius * rb];
-    crossing(places[0], a.axis.cross(ra), a.axis + ra, places[1], b.axis.cross(rb), b.axis + rb, 0.0)
+    crossing(&a.edge(ra), &b.edge(rb), 0.0, a.radius.min(b.radius))
 }
 
-/// Computes the contact of two crossing edges. The first edge is given by a point `p`, its unit direction `u` and a vector `out_p` out of
-/// its body; the second by `q`, `v` and `out_q`. The second edge may be round, with a radius.
-fn crossing(
-    p: DVec3,
-    u: DVec3,
-    out_p: DVec3,
-    q: DVec3,
-    v: DVec3,
-    out_q: DVec3,
-    radius: f64,
-) -> ClosestPoints {
-    let cross = u.cross(v);
+/// An edge at one of its points.
+struct Edge {
+    place: DVec3,
+    /// The unit direction of the edge.
+    along: DVec3,
+    /// A vector out of the body.
+    outward: DVec3,
+}
+
+/// Computes the contact of two crossing edges, of which the second may be round, with a radius. `size` is a typical length of the bodies, m.
+fn crossing(a: &Edge, b: &Edge, radius: f64, size: f64) -> ClosestPoints {
+    let (between, outward) = (b.place - a.place, a.outward - b.outward);
+    let cross = a.along.cross(b.along);
     let sine = cross.length();
-    if sine < PARALLEL_SINE.sqrt() {
-        return balls(p, 0.0, q, radius, out_p);
-    }
-    let normal = cross / sine * (cross.dot(out_p - out_q)).signum();
-    let gap = (q - p).dot(normal) - radius;
-    ClosestPoints { gap, normal, on: [p, q - radius * normal] }
+    let normal = if sine > PARALLEL_SINE.sqrt() {
+        cross / sine * cross.dot(outward).signum()
+    } else {
+        // The rims of two cones side by side are parallel where they are nearest. Where they touch, their distance has no direction.
+        let normal = radial(outward, a.along).unwrap_or(a.outward);
+        let is_near = between.length() <= radius + DEEP_OVERLAP * size;
+        if !is_near || between.dot(normal) > radius + FEATURE_TOLERANCE * size {
+            return balls(a.place, 0.0, b.place, radius, a.outward);
+        }
+        normal
+    };
+    let gap = between.dot(normal) - radius;
+    ClosestPoints { gap, normal, on: [a.place, b.place - radius * normal] }
 }
 
 /// Returns the angle of the smallest minimum of a periodic function, rad, to within rounding errors. `derivatives` returns its first and

@@ -112,7 +112,7 @@ function axes(lines, { location, orientation, length: arm }) {
  * Adds the trail of a body up to the present position in the film, as far as its frames have been fetched. If its color follows a value,
  * `palette` has the colors of its map, and `shades` the index of the color at each `every`-th frame.
  */
-export function trail(lines, run, { body, radius, color, tapers, palette, shades, every }, position, most) {
+export function trail(lines, run, { body, radius, color, tail = 1, palette, shades, every }, position, most) {
   const { duration, at = [0, 0, 0] } = run.description.bodies[body].trail ?? {};
   const isCentre = at.every((number) => number === 0);
   const pointOf = (pose) => (isCentre ? pose.slice(0, 3) : add(pose.slice(0, 3), turned(pose.slice(3), at)));
@@ -142,7 +142,7 @@ export function trail(lines, run, { body, radius, color, tapers, palette, shades
   const places = points.length * 8 < most ? bends(points) : points.map((_, i) => i);
   const smooth = places.map((place) => onCurve(points, place));
   for (let i = 1; i < smooth.length; i++) {
-    const width = (k) => radius * (tapers ? 0.35 + (0.65 * k) / (smooth.length - 1) : 1);
+    const width = (k) => radius * (tail + ((1 - tail) * k) / (smooth.length - 1));
     // A piece has the color of its middle.
     const middle = (places[i - 1] + places[i]) / 2;
     const [from, to] = [colors[Math.floor(middle)], colors[Math.ceil(middle)]];
