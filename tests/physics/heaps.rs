@@ -1,7 +1,9 @@
 //! Tests of heaps: bodies with many contacts come to rest together, and stay at rest until a disturbance.
 
 use glam::DVec3;
-use jabuka::physics::ContactSnapshot;
+use jabuka::Scene;
+use jabuka::physics::{ContactSnapshot, MotionLaw};
+use jabuka::simulate::survey;
 
 use crate::common::{drift, frames};
 
@@ -253,4 +255,41 @@ fn a_log_on_top_of_another_throws_none() {
             assert!((side * log.location.x - 1.976).abs() < 1e-3, "{step} s: {} m", log.location);
         }
     }
+}
+
+/// Sixty cans tumble into a box. A can that is jammed between two contacts may leave both: friction that holds it there would add energy.
+#[test]
+fn cans_that_tumble_into_a_box_get_no_energy() {
+    let text = r#"
+        [simulation]
+        duration = 1.5
+        gravity = [0, -9.81, 0]
+        contacts = "time-stepping"
+        [defaults.body]
+        restitution = 0.3
+        friction = 0.8
+        [body.can]
+        shape.cylinder = { radius = 0.1, height = 0.2 }
+        location = ["0.36*(i % 4) - 0.54", "0.3 + 0.36*floor(i/16)", "0.36*(floor(i/4) % 4) - 0.54"]
+        orientation = ["29*i % 90", 0, "53*i % 90"]
+        density = 1000
+        repeat = 60
+        [body.wall]
+        shape.box.size = [4, 2, 1]
+        location = [0, 1, "2.6*i - 1.3"]
+        repeat = 2
+        fixed = true
+        [body.side]
+        shape.box.size = [1, 2, 4]
+        location = ["2.6*i - 1.3", 1, 0]
+        repeat = 2
+        fixed = true
+    "#;
+    let scene = Scene::parse(text).unwrap();
+    let survey = survey(&scene, |_| {}).unwrap();
+    let added = survey.laws.iter().find(|residual| residual.law == MotionLaw::Energy);
+    // Of 1800 J, impacts and friction take most.
+    let added = added.map_or(0.0, |residual| residual.amount);
+    assert!(added < 1e-5, "{added} J");
+    assert!(survey.contacts.unwrap().lost > 1000.0);
 }

@@ -69,14 +69,22 @@ impl Pile {
                 point.goal.x = point.goal.x.min(0.0);
             }
             self.sweep_warmly(island, motion, purpose, limits);
+            if self.opening_adds_energy(island, limits) {
+                // Friction can also jam bodies that part, and then adds energy. Without impulses at the start, they part.
+                self.sweep_coldly(island, limits);
+            }
         }
         // In the second phase of an impact, contacts give back a part of the energy that the first phase has taken.
         let is_first_phase = self.points[island.points.clone()].iter().all(|point| point.least == 0.0);
         if is_first_phase && self.impulses_add_energy(island, limits) {
-            // From zero, and without acceleration, each step of a sweep brings the energy nearer to its least value.
-            self.start(island, |_| (DVec3::ZERO, DVec2::ZERO));
-            self.sweep(island, Stopping::patient(limits.tolerance), Rows::All);
+            self.sweep_coldly(island, limits);
         }
+    }
+
+    /// Sweeps from zero, and without acceleration: each step of a sweep brings the energy nearer to its least value.
+    fn sweep_coldly(&mut self, island: &Island, limits: Limits) {
+        self.start(island, |_| (DVec3::ZERO, DVec2::ZERO));
+        self.sweep(island, Stopping::patient(limits.tolerance), Rows::All);
     }
 
     /// Sweeps with acceleration, and with Newton's method where this does not converge. Forces start from those of the last substep.
