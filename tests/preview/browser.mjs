@@ -12,6 +12,9 @@ const HARMLESS = [/GL Driver Message .* GPU stall due to ReadPixels/, /^download
 /** The time limit for each wait, ms. It is long enough for a busy machine. */
 export const LONG = 240_000;
 
+/** The exit code of a test whose browser no longer answers. */
+const NO_ANSWER = 75;
+
 /** Opens a small page that records its errors and its requests. Messages that match `may` are not errors. */
 export async function newPage(browser, { size = { width: 900, height: 640 }, may = [], ...more } = {}) {
   const context = await browser.newContext({ viewport: size, ...more });
@@ -45,10 +48,10 @@ export async function open(page, address) {
  */
 export async function tests(all) {
   const [name, address, scene] = process.argv.slice(2);
-  // A browser that no longer answers has no limits of its own.
+  // A browser that no longer answers has no limits of its own. `tests/preview/browser` then starts another one, once.
   const late = setTimeout(() => {
     console.error(`${name} has not ended after ${(3 * LONG) / 1000} s`);
-    process.exit(1);
+    process.exit(NO_ANSWER);
   }, 3 * LONG);
   const browser = await launch();
   const pages = [];
