@@ -4,8 +4,9 @@ use super::super::{Loads, Model, State};
 use super::jacobian::{for_each_direction, magnitude, move_members, product, products};
 use super::row_modes::Mode;
 use super::solver::Solver;
+use super::structure::Structure;
 
-/// The largest plausible acceleration at contacts, relative to [`Solver::typical_acceleration`]. The point of a contact can run along two nearly
+/// The largest plausible acceleration of a contact point, relative to [`Solver::typical_acceleration`]. The point can run along two nearly
 /// parallel lines, or around a nearly flat rim, much faster than the bodies move.
 const MAX_ACCELERATION: f64 = 1e4;
 
@@ -75,8 +76,8 @@ impl Solver {
     }
 
     /// Solves for the multipliers λ as [`react`](Self::react) does, but adds only the forces of motors at their limits to the loads.
-    /// Writes c'' of each constraint row to `accelerations`, and returns the largest magnitude of its terms, m/s², as far as it is plausible.
-    /// Those of angles count times the size of the mechanism.
+    /// Writes c'' of each constraint row to `accelerations`, and returns the largest magnitude of its terms, m/s². Those of angles count
+    /// times the size of the mechanism. If contacts would need accelerations that nothing causes, returns those that something does.
     pub(super) fn react_seeing(
         &mut self,
         t: f64,
@@ -88,7 +89,8 @@ impl Solver {
         self.push_drives(loads);
         self.see_slips();
         self.solve_forces(t, state, loads);
-        let plausible = MAX_ACCELERATION * self.typical_acceleration(loads);
+        let typical = self.typical_acceleration(loads);
+        self.is_implausible = self.largest_bias_at_contacts() > MAX_ACCELERATION * typical;
         let Solver { structure: Some(structure), members, rows, jacobian, unknown, grips, .. } = self else {
             return 0.0;
         };
@@ -98,24 +100,43 @@ impl Solver {
         for (acceleration, row) in accelerations.iter_mut().zip(&*rows) {
             *acceleration += row.bias;
         }
-        self.is_implausible = size > plausible;
-        size.min(plausible)
+        if self.is_implausible { typical } else { size }
     }
 
-    /// Returns the acceleration that contacts need by its order of magnitude, m/s²: the loads cause it, or motion with the speed v along a curve of the radius r,
-    /// v²/r. Infinite without contacts.
+    /// Returns the order of magnitude of the accelerations in which contacts take part, m/s²: those by loads and of given motions, those that
+    /// joints need, and v²/r for motion along a curve with the speed v and the radius r.
     fn typical_acceleration(&self, loads: &Loads) -> f64 {
         let (Some(structure), false) = (&self.structure, self.contacts.is_empty()) else {
             return f64::INFINITY;
         };
-        let of_loads = self.members.iter().zip(&structure.bodies).map(|(member, &body)| {
-            let turning = member.turn(loads.torque[body]).length();
-            member.inverse_mass * loads.force[body].length() + structure.length * turning
+        let of_bodies = self.members.iter().zip(&self.motions).zip(&structure.bodies);
+        let of_bodies = of_bodies.map(|((member, motion), &body)| {
+            let [linear, angular] = match motion {
+                Some(_) => [member.velocity, member.angular_velocity],
+                None => [member.inverse_mass * loads.force[body], member.turn(loads.torque[body])],
+            };
+            linear.length() + structure.length * angular.length()
         });
-        let of_loads = of_loads.fold(0.0, f64::max);
+        let joints = self.all.len() - self.contacts.len();
+        let of_joints = self.largest_bias(structure, |constraint| constraint < joints);
+        let caused = of_bodies.fold(of_joints, f64::max);
         let smallest = self.contacts.iter().map(|contact| contact.size).fold(f64::INFINITY, f64::min);
-        let speed = self.largest_rate + of_loads * self.step;
-        of_loads + speed * speed / smallest
+        let speed = self.largest_rate + caused * self.step;
+        caused + speed * speed / smallest
+    }
+
+    /// Returns the largest part of c'' at a contact that does not depend on accelerations, m/s².
+    fn largest_bias_at_contacts(&self) -> f64 {
+        let joints = self.all.len() - self.contacts.len();
+        self.structure
+            .as_ref()
+            .map_or(0.0, |structure| self.largest_bias(structure, |constraint| constraint >= joints))
+    }
+
+    fn largest_bias(&self, structure: &Structure, is_counted: impl Fn(usize) -> bool) -> f64 {
+        let places = structure.places.iter().filter(|place| is_counted(place.constraint));
+        let rows = places.flat_map(|place| place.row..place.row + place.rows);
+        rows.map(|row| self.rows[row].bias.abs() / self.unit(row)).fold(0.0, f64::max)
     }
 
     /// Adds the forces of motors at their limits, and their power, to the loads.

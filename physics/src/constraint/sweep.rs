@@ -269,6 +269,7 @@ impl Solver {
         self.refine(&goals, purpose, (largest, tolerance), &members);
         let moved: Vec<f64> = self.rows.iter().map(|row| row.rate).collect();
         let now = self.rates_now();
+        let mut is_cold = false;
         if purpose != Purpose::Impact && self.adds_energy(&moved, &now, tolerance) {
             // A contact that opens in the first half of a substep was made to open on in the second. It may close again instead.
             for (goal, law) in goals.iter_mut().zip(&self.laws) {
@@ -277,9 +278,12 @@ impl Solver {
             self.members.clone_from(&members);
             self.sweep_warmly(&goals, purpose, (largest, tolerance));
             self.refine(&goals, purpose, (largest, tolerance), &members);
+            let now = self.rates_now();
+            // Friction can also jam bodies that part, and then adds energy. Without impulses at the start, they part.
+            is_cold = self.adds_energy(&moved, &now, tolerance);
         }
         // In the second phase of an impact, contacts give back a part of the energy that the first phase has taken.
-        if self.least.is_empty() && self.adds_energy(&goals, before, tolerance) {
+        if is_cold || self.least.is_empty() && self.adds_energy(&goals, before, tolerance) {
             // From zero, and without acceleration, each step of a sweep brings the energy nearer to its least value.
             self.unknown.fill(0.0);
             self.members.clone_from(&members);

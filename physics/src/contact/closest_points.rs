@@ -400,7 +400,7 @@ impl<'a> Search<'a> {
     }
 
     /// Returns the best candidate if it is certain: its gap is the separation along its normal, and its points are on the convex parts. The
-    /// points of a deep overlap may lie outside of the features, but not far from the parts, as the crossing of almost parallel sides does.
+    /// points of a deep overlap may lie outside of the features, but only near the parts. Almost parallel sides cross far from both parts.
     fn answer(&self) -> Option<ClosestPoints> {
         let (along, found) = self.best?;
         let is_exact = (found.gap - along).abs() <= 4.0 * self.digits;

@@ -71,6 +71,26 @@ const BUCKET: Shape = Shape::Cone { radius: 0.3, top_radius: 0.6, height: 0.8 };
 /// All shapes above except the ground.
 pub(super) const ALL_SHAPES: [Shape; 7] = [BALL, CUBE, ROUNDED_CUBE, CAN, PILL, CONE, BUCKET];
 
+/// The rim of an upright can meets a rounded edge where both have the same direction. The rounded edge alone has the normal.
+#[test]
+fn a_rim_that_meets_a_rounded_edge_has_the_normal_of_the_edge() {
+    // The axis of the edge is at x = 0.3 and y = 0.5.
+    let (block, can) = (solid(&ROUNDED_CUBE), solid(&CAN));
+    for degrees in [20.0_f64, 45.0, 70.0] {
+        let (sin, cos) = libm::sincos(degrees.to_radians());
+        let normal = DVec3::new(cos, sin, 0.0);
+        for gap in [1e-2, 1e-5, 1e-8, 1e-10, 0.0, -1e-10, -1e-8, -1e-5] {
+            let rim = DVec3::new(0.3, 0.5, 0.0) + (0.2 + gap) * normal;
+            let (p, q) = (at(0.0, 0.0, 0.0), at(rim.x + 0.4, rim.y + 0.6, 0.0));
+            let found = nearest(&block, &p, &can, &q, f64::INFINITY).unwrap();
+            assert!((found.gap - gap).abs() < 1e-14, "{degrees}°, {gap}: {found:?}");
+            let touches = touches(&block, &p, &can, &q, gap.abs() + 1e-9);
+            assert_eq!(touches.len(), 1, "{degrees}°, {gap}: {touches:?}");
+            assert!((touches[0].meeting.normal - normal).length() < 1e-7, "{degrees}°, {gap}: {touches:?}");
+        }
+    }
+}
+
 /// Logs that lie side by side and are almost parallel have the gap between their sides, and not the overlap of their ends.
 #[test]
 fn logs_side_by_side_have_the_gap_of_their_sides() {

@@ -192,7 +192,7 @@ impl Pair<'_> {
         self.add_where(&near_a, &near_b, is_needed);
         if self.found.is_empty() {
             // A corner touches a corner or an edge, or two cones touch at the rims of their bases.
-            self.add_where(&near_a, &near_b, |a, b| a.has_no_normal_with(b) || are_parallel_rims(a, b));
+            self.add_where(&near_a, &near_b, has_no_normal);
         }
     }
 
@@ -374,17 +374,17 @@ fn is_needed(a: &Patch, b: &Patch) -> bool {
         (Patch::Plane { .. }, other) | (other, Patch::Plane { .. }) => {
             matches!(other, Patch::Point { .. } | Patch::Circle { .. })
         }
-        _ => !a.has_no_normal_with(b) && !are_parallel_rims(a, b),
+        _ => !has_no_normal(a, b),
     }
 }
 
-/// Returns true if two rims face the same way. Where they touch, they have the same direction, so that they have no common normal.
-fn are_parallel_rims(a: &Patch, b: &Patch) -> bool {
+/// Returns true if two patches have no common normal where they touch: those of a corner, and two rims that face nearly the same way.
+fn has_no_normal(a: &Patch, b: &Patch) -> bool {
     match (a, b) {
         (Patch::Circle { axis: u, .. }, Patch::Circle { axis: v, .. }) => {
             u.dot(*v) > 0.0 && u.cross(*v).length() < PARALLEL_RIM_SINE
         }
-        _ => false,
+        _ => a.has_no_normal_with(b),
     }
 }
 
@@ -422,8 +422,7 @@ mod tests {
         };
         let near_a = near(pair.a, pair.pa, nearest.on[0], nearest.normal);
         let near_b = near(pair.b, pair.pb, nearest.on[1], -nearest.normal);
-        let is_last = |a: &Patch, b: &Patch| a.has_no_normal_with(b) || are_parallel_rims(a, b);
-        for is_wanted in [&is_needed as &dyn Fn(&Patch, &Patch) -> bool, &is_last] {
+        for is_wanted in [is_needed, has_no_normal] {
             for (i, j) in near_a.iter().flat_map(|i| near_b.iter().map(move |j| (*i, *j))) {
                 let (a, b) = (pair.a.features[i].patch, pair.b.features[j].patch);
                 if is_wanted(&a.placed(pair.pa), &b.placed(pair.pb)) {

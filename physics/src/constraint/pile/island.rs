@@ -63,6 +63,7 @@ impl Pile {
         };
         let limits = Limits { tolerance: factor * limits.tolerance, ..limits };
         self.sweep_warmly(island, motion, purpose, limits);
+        let mut is_cold = false;
         if matches!(purpose, Purpose::Forces(_)) && self.opening_adds_energy(island, limits) {
             // A contact that opens in the first half of a substep was made to open on in the second. It may close again instead.
             for point in &mut self.points[island.points.clone()] {
@@ -72,11 +73,12 @@ impl Pile {
             if self.opening_adds_energy(island, limits) {
                 // Friction can also jam bodies that part, and then adds energy. Without impulses at the start, they part.
                 self.sweep_coldly(island, limits);
+                is_cold = true;
             }
         }
         // In the second phase of an impact, contacts give back a part of the energy that the first phase has taken.
         let is_first_phase = self.points[island.points.clone()].iter().all(|point| point.least == 0.0);
-        if is_first_phase && self.impulses_add_energy(island, limits) {
+        if is_first_phase && !is_cold && self.impulses_add_energy(island, limits) {
             self.sweep_coldly(island, limits);
         }
     }

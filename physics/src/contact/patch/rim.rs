@@ -121,7 +121,7 @@ pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> ClosestPoints {
         return balls(place, 0.0, foot, spine.radius + spine.taper * s, -radial);
     }
     let edge = Edge { place: foot, along: v, outward: spine.outward };
-    crossing(&rim.edge(radial), &edge, spine.radius, rim.radius)
+    crossing(&rim.edge(radial), &edge, spine.radius, rim.radius.min(spine.half))
 }
 
 /// Computes the closest points of two rims.
@@ -165,9 +165,9 @@ fn crossing(a: &Edge, b: &Edge, radius: f64, size: f64) -> ClosestPoints {
         cross / sine * cross.dot(outward).signum()
     } else {
         // The rims of two cones side by side are parallel where they are nearest. Where they touch, their distance has no direction.
-        let normal = radial(outward, a.along).unwrap_or(a.outward);
-        let is_near = between.length() <= radius + DEEP_OVERLAP * size;
-        if !is_near || between.dot(normal) > radius + FEATURE_TOLERANCE * size {
+        let normal = radial(outward, a.along).unwrap_or(a.outward.normalize());
+        let is_far = between.length() > DEEP_OVERLAP * size || between.dot(normal) > FEATURE_TOLERANCE * size;
+        if radius > 0.0 || is_far {
             return balls(a.place, 0.0, b.place, radius, a.outward);
         }
         normal
