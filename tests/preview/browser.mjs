@@ -48,11 +48,12 @@ export async function open(page, address) {
  */
 export async function tests(all) {
   const [name, address, scene] = process.argv.slice(2);
-  // A browser that no longer answers has no limits of its own. `tests/preview/browser` then starts another one, once.
+  // A browser that no longer answers has no limits of its own. `tests/preview/browser` then starts another one, with a longer limit.
+  const limit = (process.env.JABUKA_LAST_TRY ? 3 : 1.5) * LONG;
   const late = setTimeout(() => {
-    console.error(`${name} has not ended after ${(3 * LONG) / 1000} s`);
+    console.error(`${name} has not ended after ${limit / 1000} s`);
     process.exit(NO_ANSWER);
-  }, 3 * LONG);
+  }, limit);
   const browser = await launch();
   const pages = [];
   // Tests with several pages, or of the time before the first frame, open their pages themselves.
