@@ -126,7 +126,7 @@ fn contacts(totals: ContactTotals, law: ContactLaw, scheme: &str, scale: f64) ->
     format!("{taken}contacts  {scheme}bodies {depth} m within each other at most{gap}\n")
 }
 
-/// Returns what computes the contacts of a scene with time stepping, and why.
+/// Returns which engine computes the contacts with time stepping; for the engine for many bodies, also the reason.
 fn scheme(scene: &Scene) -> String {
     let reason = why_for_many_bodies(&scene.bodies);
     let by = reason

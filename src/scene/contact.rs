@@ -49,8 +49,8 @@ pub fn is_by_moreau(bodies: &[Body]) -> bool {
     why_for_many_bodies(bodies).is_none()
 }
 
-/// Returns the reason why time stepping needs the engine for many bodies: forces move many of these bodies, or one that collides is a torus,
-/// for which no distance is computed. `None` if Moreau's scheme can advance them.
+/// Returns the reason why time stepping needs the engine for many bodies: forces move too many bodies for Moreau's scheme, or a torus collides,
+/// whose contacts this scheme cannot compute. `None` if Moreau's scheme can advance the bodies.
 pub fn why_for_many_bodies(bodies: &[Body]) -> Option<String> {
     let moving = bodies.iter().filter(|body| !body.start.fixed && body.motion.is_none()).count();
     if moving > MAX_BODIES_BY_MOREAU {

@@ -216,8 +216,8 @@ fn piles_of_logs_roll_apart() {
     }
 }
 
-/// Six logs roll apart, until one of them lies on top of another, between two that lean on it. It has no room to fall on either side, so that
-/// its contacts are nearly contradictory. No log is thrown, and the outermost logs, which nothing brakes, roll on with all that they have.
+/// Six logs roll apart. At the end, the top log lies on the middle log of the lowest row, and two others touch that one from both sides. The
+/// contacts of these four logs nearly contradict each other, but they throw no log. The outermost logs roll on at a constant speed.
 #[test]
 fn a_log_on_top_of_another_throws_none() {
     for step in [0.004, 0.0005] {

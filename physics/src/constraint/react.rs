@@ -6,8 +6,8 @@ use super::row_modes::Mode;
 use super::solver::Solver;
 use super::structure::Structure;
 
-/// The largest plausible acceleration of a contact point, relative to [`Solver::typical_acceleration`]. The point can run along two nearly
-/// parallel lines, or around a nearly flat rim, much faster than the bodies move.
+/// A contact needs an implausible acceleration if it exceeds [`Solver::typical_acceleration`] by this factor. The factor is large, because the
+/// contact point of two nearly parallel lines, or of a nearly flat rim, moves much faster than the bodies.
 const MAX_ACCELERATION: f64 = 1e4;
 
 impl Solver {

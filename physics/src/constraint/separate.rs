@@ -13,8 +13,8 @@ pub(super) const IGNORED_OVERLAP: f64 = 1e-9;
 /// The Gauss–Seidel sweeps that separate bodies end when they move bodies by less than this fraction of the deepest overlap.
 pub(super) const SEPARATION_SWEEP_TOLERANCE: f64 = 1e-5;
 
-/// The largest shift of a body that closes gaps, relative to the sum of the deepest overlap over all contacts. It is more than 1, since a
-/// body may have to turn about a point far from its center.
+/// Closing gaps may move a body at most this many times the deepest overlap times the number of contacts. It is more than 1, because a body
+/// may have to turn about a point far from its center.
 pub(super) const MAX_SHIFT: f64 = 10.0;
 
 impl Solver {

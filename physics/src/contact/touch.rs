@@ -10,7 +10,7 @@ use super::solid::{ConvexPart, Core, Pose, Solid};
 
 /// A flat end lies flat on a face, and two sides lie along each other, if the sine of the angle between them is below this.
 const FLAT_CONTACT_SINE: f64 = 1e-7;
-/// Two rims are parallel if the sine of the angle between them is below this.
+/// Two rims are parallel if the sine of the angle between their axes is below this.
 const PARALLEL_RIM_SINE: f64 = 1e-3;
 /// Two contact points count as the same if their distance is below this fraction of the smaller body's size, and if the cosine of the angle
 /// between their normals differs from 1 by less than this.
@@ -368,7 +368,7 @@ fn farthest(all: Vec<Touch>) -> Vec<Touch> {
 }
 
 /// Returns true if two patches need a contact point of their own. Lines and faces touch a face at their ends and corners, which are
-/// separate patches. Logs side by side touch where the rim of one lies on the side of the other.
+/// separate patches. For two logs side by side, the contact of a rim of one log and the side of the other is enough.
 fn is_needed(a: &Patch, b: &Patch) -> bool {
     match (a, b) {
         (Patch::Plane { .. }, other) | (other, Patch::Plane { .. }) => {

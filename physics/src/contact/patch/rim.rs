@@ -164,7 +164,8 @@ fn crossing(a: &Edge, b: &Edge, radius: f64, size: f64) -> ClosestPoints {
     let normal = if sine > PARALLEL_SINE.sqrt() {
         cross / sine * cross.dot(outward).signum()
     } else {
-        // The rims of two cones side by side are parallel where they are nearest. Where they touch, their distance has no direction.
+        // The nearest points of the rims of two cones side by side have the same tangent. If the rims touch, both points are the same, so the
+        // vector between them gives no normal.
         let normal = radial(outward, a.along).unwrap_or(a.outward.normalize());
         let is_far = between.length() > DEEP_OVERLAP * size || between.dot(normal) > FEATURE_TOLERANCE * size;
         if radius > 0.0 || is_far {
