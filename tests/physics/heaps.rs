@@ -162,35 +162,40 @@ fn births_leave_what_is_at_rest_alone() {
     assert_eq!(late[late.len() - 1].bodies.len(), 8);
 }
 
+/// Returns a scene with rows of logs on each other, the longest row on the ground. `keys` are those of all bodies.
+fn pile_of_logs(rows: usize, [radius, height]: [f64; 2], simulation: &str, keys: &str) -> String {
+    let bodies = (0..rows).map(|row| {
+        let (count, high) = (rows - row, row as f64);
+        format!(
+            "[body.row{row}]\nrepeat = {count}\n\
+             location = ['{radius}*(2*i - {last})', '{radius}*(1 + sqrt(3)*{high})', 0]\n",
+            last = count - 1,
+        )
+    });
+    format!(
+        r#"
+        [simulation]
+        gravity = [0, -9.81, 0]
+        {simulation}
+        [environment.ground]
+        friction = 0.35
+        [defaults.body]
+        shape.cylinder = {{ radius = {radius}, height = {height} }}
+        orientation = [90, 0, 0]
+        {keys}
+        {}
+        "#,
+        bodies.collect::<String>()
+    )
+}
+
 /// Piles of logs whose friction is too small give way: they slide and roll apart in their plane. Nothing throws a log along its axis, and the
 /// policies and two steps agree on where the outermost log is after a second.
 #[test]
 fn piles_of_logs_roll_apart() {
     let scene = |rows: usize, contacts: &str, friction: f64, step: f64| {
-        let bodies = (0..rows).map(|row| {
-            let (count, high) = (rows - row, row as f64);
-            format!(
-                "[body.row{row}]\nrepeat = {count}\nlocation = ['0.2*i - 0.1*{last}', '0.1 + 0.1*sqrt(3)*{high}', 0]\n",
-                last = count - 1,
-            )
-        });
-        format!(
-            r#"
-            [simulation]
-            duration = 1
-            step = {step}
-            gravity = [0, -9.81, 0]
-            contacts = "{contacts}"
-            [environment.ground]
-            friction = 0.35
-            [defaults.body]
-            shape.cylinder = {{ radius = 0.1, height = 0.3 }}
-            orientation = [90, 0, 0]
-            friction = {friction}
-            {}
-            "#,
-            bodies.collect::<String>()
-        )
+        let simulation = format!("duration = 1\nstep = {step}\ncontacts = '{contacts}'");
+        pile_of_logs(rows, [0.1, 0.3], &simulation, &format!("friction = {friction}"))
     };
     for (rows, friction, expected) in [(2, 0.245, 0.2742), (2, 0.26, 0.1940), (3, 0.05, 0.8932)] {
         for (contacts, step) in [
@@ -221,29 +226,8 @@ fn piles_of_logs_roll_apart() {
 #[test]
 fn a_log_on_top_of_another_throws_none() {
     for step in [0.004, 0.0005] {
-        let frames = frames(&format!(
-            r#"
-            [simulation]
-            duration = 2
-            step = {step}
-            gravity = [0, -9.81, 0]
-            contacts = "event-driven"
-            [defaults.body]
-            shape.cylinder = {{ radius = 0.2, height = 1 }}
-            orientation = [90, 0, 0]
-            mass = 10
-            friction = 0.25
-            restitution = 0
-            [body.low]
-            location = ["0.4*(i - 1)", 0.2, 0]
-            repeat = 3
-            [body.middle]
-            location = ["0.4*i - 0.2", "0.2 + 0.2*sqrt(3)", 0]
-            repeat = 2
-            [body.top]
-            location = [0, "0.2 + 0.4*sqrt(3)", 0]
-            "#
-        ));
+        let simulation = format!("duration = 2\nstep = {step}\ncontacts = 'event-driven'");
+        let frames = frames(&pile_of_logs(3, [0.2, 1.0], &simulation, "friction = 0.25\nrestitution = 0"));
         let fastest = frames.iter().flat_map(|frame| &frame.bodies).map(|body| body.velocity.length());
         let fastest = fastest.fold(0.0, f64::max);
         // The log on top falls by 0.35 m at most, and no other falls farther.

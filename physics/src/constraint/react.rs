@@ -4,7 +4,6 @@ use super::super::{Loads, Model, State};
 use super::jacobian::{for_each_direction, magnitude, move_members, product, products};
 use super::row_modes::Mode;
 use super::solver::Solver;
-use super::structure::Structure;
 
 /// A contact needs an implausible acceleration if it exceeds [`Solver::typical_acceleration`] by this factor. The factor is large, because the
 /// contact point of two nearly parallel lines, or of a nearly flat rim, moves much faster than the bodies.
@@ -89,8 +88,9 @@ impl Solver {
         self.push_drives(loads);
         self.see_slips();
         self.solve_forces(t, state, loads);
-        let typical = self.typical_acceleration(loads);
-        self.is_implausible = self.largest_bias_at_contacts() > MAX_ACCELERATION * typical;
+        let [of_joints, of_contacts] = self.largest_biases();
+        let typical = self.typical_acceleration(loads, of_joints);
+        self.is_implausible = of_contacts > MAX_ACCELERATION * typical;
         let Solver { structure: Some(structure), members, rows, jacobian, unknown, grips, .. } = self else {
             return 0.0;
         };
@@ -104,8 +104,8 @@ impl Solver {
     }
 
     /// Returns the order of magnitude of the accelerations in which contacts take part, m/s²: those by loads and of given motions, those that
-    /// joints need, and v²/r for motion along a curve with the speed v and the radius r.
-    fn typical_acceleration(&self, loads: &Loads) -> f64 {
+    /// joints need (`of_joints`), and v²/r for motion along a curve with the speed v and the radius r.
+    fn typical_acceleration(&self, loads: &Loads, of_joints: f64) -> f64 {
         let (Some(structure), false) = (&self.structure, self.contacts.is_empty()) else {
             return f64::INFINITY;
         };
@@ -117,26 +117,23 @@ impl Solver {
             };
             linear.length() + structure.length * angular.length()
         });
-        let joints = self.all.len() - self.contacts.len();
-        let of_joints = self.largest_bias(structure, |constraint| constraint < joints);
         let caused = of_bodies.fold(of_joints, f64::max);
         let smallest = self.contacts.iter().map(|contact| contact.size).fold(f64::INFINITY, f64::min);
         let speed = self.largest_rate + caused * self.step;
         caused + speed * speed / smallest
     }
 
-    /// Returns the largest part of c'' at a contact that does not depend on accelerations, m/s².
-    fn largest_bias_at_contacts(&self) -> f64 {
+    /// Returns the largest part of c'' that does not depend on accelerations, m/s²: of all joints, and of all contacts.
+    fn largest_biases(&self) -> [f64; 2] {
         let joints = self.all.len() - self.contacts.len();
-        self.structure
-            .as_ref()
-            .map_or(0.0, |structure| self.largest_bias(structure, |constraint| constraint >= joints))
-    }
-
-    fn largest_bias(&self, structure: &Structure, is_counted: impl Fn(usize) -> bool) -> f64 {
-        let places = structure.places.iter().filter(|place| is_counted(place.constraint));
-        let rows = places.flat_map(|place| place.row..place.row + place.rows);
-        rows.map(|row| self.rows[row].bias.abs() / self.unit(row)).fold(0.0, f64::max)
+        let mut largest = [0.0_f64; 2];
+        for place in self.structure.iter().flat_map(|structure| &structure.places) {
+            let largest = &mut largest[usize::from(place.constraint >= joints)];
+            for row in place.row..place.row + place.rows {
+                *largest = largest.max(self.rows[row].bias.abs() / self.unit(row));
+            }
+        }
+        largest
     }
 
     /// Adds the forces of motors at their limits, and their power, to the loads.
