@@ -5,6 +5,7 @@ import { FONTS } from "./fonts.js";
 export const REFUSED = typeof WebAssembly === "object" ? null : "This browser has no WebAssembly, which jabuka needs.";
 export const LOST = "jabuka has stopped. Change the scene to start it again.";
 export const CAN_RENDER = false;
+export const CAN_COMPUTE = true;
 
 /** The time after which a worker that does not take a new scene is replaced, ms. One frame of a hard scene may take hours. */
 const PATIENCE = 1000;

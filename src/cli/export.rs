@@ -9,6 +9,7 @@ use crate::export::{Contents, ExportError, FORMATS, FileKind, Format, PlotDrawin
 use crate::motion_warnings;
 use crate::output::OutputError;
 use crate::overwrite::ProtectedFiles;
+use crate::page::OneFile;
 use crate::simulate::{Moments, Selection};
 use crate::system::Dir;
 
@@ -18,8 +19,8 @@ use super::scene_arguments::SceneArguments;
 use super::summary::{bytes as size, two_digits};
 use super::{Failure, terminal};
 
-/// Write the positions of all bodies at every frame: as a table (CSV), or as an animated model for Blender, three.js and other programs
-/// (binary glTF)
+/// Write the positions of all bodies at every frame: as a table (CSV), as an animated model for Blender, three.js and other programs
+/// (binary glTF), or as a web page that any browser plays
 #[derive(clap::Args)]
 #[command(
     override_usage = "jabuka export [OPTIONS] --output <FILE> <SCENE>\n       jabuka export [OPTIONS] --events <FILE> <SCENE>"
@@ -28,7 +29,7 @@ pub(super) struct Arguments {
     /// The scene file
     #[arg(required_unless_present = "events")]
     scene: Option<PathBuf>,
-    /// The file to write: FILE.csv or FILE.glb; with `--plot` FILE.svg, FILE.png, FILE.pdf or FILE.csv
+    /// The file to write: FILE.csv, FILE.glb or FILE.html; with `--plot` FILE.svg, FILE.png, FILE.pdf or FILE.csv
     #[arg(short, long, value_name = "FILE", required_unless_present = "events")]
     output: Option<PathBuf>,
     /// Write the forces and torques of the joints as a table, instead of the positions of the bodies
@@ -106,7 +107,7 @@ impl Arguments {
             let kinds = formats.map(Format::file_kind);
             let kinds: Vec<_> = kinds.map(in_words).collect();
             Failure::Usage(format!(
-                "what is exported is {}, and `{}` ends in neither",
+                "an export is {}; `{}` ends in none of these",
                 kinds.join(", or "),
                 visible_path(output)
             ))
@@ -126,7 +127,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let drawing = |name: &String| files_of_plot.map(|file| PlotDrawing { name: name.clone(), file });
     let drawings = arguments.plot.as_ref().map(drawing);
     let of_plot = drawings.iter().flatten().map(|drawing| drawing as &dyn Format);
-    let formats: Vec<&dyn Format> = FORMATS.into_iter().chain(of_plot).collect();
+    let formats: Vec<&dyn Format> =
+        FORMATS.into_iter().chain(of_plot).chain([&OneFile as &dyn Format]).collect();
     let format = arguments.format(&formats, output)?;
     let scene = arguments.of_scene.read_with(files.scene, &[])?;
     if let Some(unknown) = drawings.iter().flatten().find_map(|drawing| drawing.unknown(&scene)) {
@@ -135,6 +137,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     terminal::report_protected(ProtectedFiles::of_scene(&scene).check(output))?;
     if let Some(lack) = format.lack(&scene) {
         return Err(Failure::Scene(lack));
+    }
+    if format.needs_all_frames() && arguments.frames.is_some() {
+        let noun = format.file_kind().noun;
+        return Err(Failure::Usage(format!("{noun} holds all frames of a run: leave out `--frames`")));
     }
     let frames = scene.simulation.timeline.frames();
     let selection = arguments.frames.clone().unwrap_or_else(|| Selection::first(frames));
@@ -148,6 +154,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let run = run.map_err(|error| progress.failed(&error))?;
     progress.finish();
     let selection = run_arguments::whole(&run, &selection);
+    if let Some(breakdown) = run.breakdown().filter(|_| format.needs_all_frames()) {
+        return Err(run_arguments::report_breakdown(breakdown, "nothing is written"));
+    }
     if selection.last().is_none() {
         return run_arguments::broken_down(&run, &selection);
     }
@@ -175,7 +184,11 @@ fn report(error: ExportError, path: &Path) -> Report {
     match error {
         ExportError::Io(error) => OutputError::Io(path.to_owned(), error).report(),
         ExportError::Simulate(error) => OutputError::from(error).report(),
-        ExportError::TooLarge(_) | ExportError::NoValue { .. } | ExportError::OutOfRange { .. } => {
+        ExportError::Run(report) => report,
+        ExportError::NotWhole
+        | ExportError::TooLarge(_)
+        | ExportError::NoValue { .. }
+        | ExportError::OutOfRange { .. } => {
             let message = format!("`{}`: {error}", visible_path(path));
             let diagnostic = Diagnostic::error(Code::CannotExport, message);
             let help = error.help();

@@ -69,6 +69,17 @@ impl Sources {
         self.texts.iter().any(|source| stands_in(&source.text))
     }
 
+    /// Replaces the path of each file by its name, for readers on other machines.
+    #[cfg(feature = "render")]
+    pub(crate) fn forget_folders(&mut self) {
+        for source in &mut self.texts {
+            if let Some(name) = std::path::Path::new(&source.name).file_name() {
+                let name = name.to_string_lossy().into_owned();
+                *source = Arc::new(Source { name, ..(**source).clone() });
+            }
+        }
+    }
+
     /// Records the path of a file that was read for the scene, or that would have been read if it existed.
     pub fn note_file(&mut self, path: impl Into<PathBuf>) {
         let path = path.into();

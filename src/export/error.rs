@@ -2,6 +2,7 @@
 
 use std::{fmt, io};
 
+use crate::diagnostic::Report;
 use crate::simulate::SimulateError;
 use crate::system::FolderError;
 
@@ -12,6 +13,10 @@ pub enum ExportError {
     Io(io::Error),
     /// The run cannot be simulated or read.
     Simulate(SimulateError),
+    /// The format holds only whole runs, and some frames are missing.
+    NotWhole,
+    /// An error of the run itself.
+    Run(Report),
     /// The file would be larger than its format allows. It would have at least this many bytes.
     TooLarge(u64),
     /// A value that a camera or a light follows is unknown at the time of a frame.
@@ -54,6 +59,10 @@ impl fmt::Display for ExportError {
         match self {
             ExportError::Io(error) => error.fmt(f),
             ExportError::Simulate(error) => error.fmt(f),
+            ExportError::Run(report) => f.write_str(&report.to_text(false)),
+            ExportError::NotWhole => {
+                f.write_str("a web page holds all frames of a run, and some are missing")
+            }
             ExportError::TooLarge(bytes) => {
                 write!(
                     f,

@@ -35,6 +35,11 @@ pub trait Format: Sync {
         None
     }
 
+    /// Returns true if the format holds only whole runs, with all frames.
+    fn needs_all_frames(&self) -> bool {
+        false
+    }
+
     /// Writes the selected frames of a run.
     ///
     /// # Errors
@@ -96,7 +101,7 @@ impl Contents {
 }
 
 /// Returns the number of bodies of a scene in words.
-pub(super) fn count_of_bodies(scene: &Scene) -> String {
+pub(crate) fn count_of_bodies(scene: &Scene) -> String {
     match scene.bodies.len() {
         1 => "1 body".to_owned(),
         bodies => format!("{bodies} bodies"),

@@ -29,6 +29,8 @@ mod table;
 pub use self::bodies::{HEADER, write_csv};
 pub use self::error::ExportError;
 pub use self::events::{EVENT_HEADER, write_events};
+#[cfg(feature = "render")]
+pub(crate) use self::format::count_of_bodies;
 pub use self::format::{Contents, DRAWING, FORMATS, FileKind, Format, IMAGE, MODEL, PAGE, TABLE};
 pub use self::glb::{Exported, write_glb};
 pub use self::joints::{JOINT_HEADER, write_joints};

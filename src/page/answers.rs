@@ -12,7 +12,7 @@
 //! | `/api/runs/N/shown?from=A&to=B` | the objects drawn beside the bodies in some frames |
 //! | `/api/runs/N/particles?from=A&to=B` | its particles in some frames |
 //! | `/api/runs/N/scripts?from=A&to=B` | the scripts of some frames, and the files that they include |
-//! | `/api/runs/N/model`, `…/table` | the model and the table that `jabuka export` writes |
+//! | `/api/runs/N/model`, `…/table`, `…/page` | the model, the table and the web page that `jabuka export` writes |
 
 use std::sync::Arc;
 
@@ -131,6 +131,8 @@ pub fn answer_of_run(run: &Arc<PageRun>, what: &str, frames: &Frames) -> Result<
         "particles" => Answer::Binary(swarms::frames(run, recorded)?),
         "model" => Answer::Binary(exports::file(run, &MODEL)?),
         "table" => Answer::Binary(exports::file(run, &TABLE)?),
+        #[cfg(feature = "render")]
+        "page" => Answer::Binary(super::one_file::of_run(run)?),
         "scripts" => Answer::Binary(scripts::of_frames(run, frames)?),
         _ => return Err(Failed::Gone),
     })

@@ -46,11 +46,11 @@ pub(super) struct Description<'a> {
     handles: Vec<HandleText<'a>>,
     bounds: Option<[[f64; 3]; 2]>,
     /// True if frames contain more to draw than the bodies, such as arrows, springs or labels.
-    shows: bool,
+    pub(super) shows: bool,
     /// True if the scene has particle emitters.
-    particles: bool,
+    pub(super) particles: bool,
     /// True if frames list the points of contact and the forces there.
-    contacts: bool,
+    pub(super) contacts: bool,
     /// The sizes of the files of the fonts that labels have of their own, bytes.
     fonts: Vec<usize>,
     /// True if the run is finished. Until then, its surroundings are those of the run before it, and no results are known.

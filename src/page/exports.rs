@@ -23,6 +23,7 @@ impl From<ExportError> for Failed {
         match error {
             ExportError::Io(error) => Failed::Io(error),
             ExportError::Simulate(error) => error.into(),
+            ExportError::Run(report) => report.into(),
             error => Report::of_error(Code::CannotExport, error.to_string()).into(),
         }
     }

@@ -39,6 +39,7 @@ pub const FILES: &[(&str, &str, &[u8])] = files! {
         "main.js"
         "math.js"
         "parts.js"
+        "recorded.js"
         "source.js"
         "body/chosen_body.js"
         "body/contacts.js"

@@ -62,11 +62,11 @@ impl RunStorage for InMemory {
     }
 }
 
-/// The host of tests that need none.
-#[cfg(test)]
+/// The host of a run that is already recorded, and of tests that need none.
+#[cfg(any(test, feature = "render"))]
 pub(super) struct NoHost;
 
-#[cfg(test)]
+#[cfg(any(test, feature = "render"))]
 impl Host for NoHost {
     fn read(&self, _options: &Options) -> Result<Scene, Report> {
         Err(Report::default())

@@ -11,13 +11,14 @@
 //! | the data of a run for the page | `describe`, `shown`, `swarms`, `samples` |
 //! | the scripts, the table and the model of a run, for users who take them along | `scripts`, `exports` |
 //! | the encoding of frames as bytes | `numbers` |
+//! | the page and a run as one file | `one_file` |
 //! | the files of the page | `files`, and the folder `web` |
 //!
-//! # One page, two hosts
+//! # One page, three sources
 //!
 //! The page does not know where its data come from. `jabuka preview` serves it from a local server (`preview`); `playground/` compiles this
 //! library for the browser, and answers the same requests in a worker beside the page. Both implement [`Host`], and both give a request to
-//! [`answer`].
+//! [`answer`]. A third one needs no program at all: a run that was saved as one file ([`OneFile`]) has all answers in the page.
 //!
 //! # Runs
 //!
@@ -51,6 +52,8 @@ mod failed;
 mod files;
 mod host;
 mod numbers;
+#[cfg(feature = "render")]
+mod one_file;
 mod panicked;
 mod provisional;
 mod run;
@@ -67,6 +70,8 @@ pub use files::FILES;
 pub use host::{Host, RunStorage};
 #[cfg(feature = "preview")]
 pub(crate) use numbers::poses;
+#[cfg(feature = "render")]
+pub use one_file::{OneFile, WEB_PAGE};
 #[cfg(feature = "preview")]
 pub(crate) use panicked::caught;
 pub use run::{Outcome, PageRun, Progress, RunId, RunWork};

@@ -10,6 +10,8 @@ use std::time::Instant;
 
 use serde::Serialize;
 
+#[cfg(any(test, feature = "render"))]
+use super::host::NoHost;
 use super::panicked::caught;
 use super::{Failed, Host, provisional, swarms};
 use crate::diagnostic::{Code, Diagnostic, Report};
@@ -190,6 +192,33 @@ impl PageRun {
         })
     }
 
+    /// Makes a run of a recording, with all its results. The number of the run is 1, and its texts name files without their folders: the page is the
+    /// same on all machines.
+    ///
+    /// # Errors
+    /// If the recording cannot be read.
+    #[cfg(feature = "render")]
+    pub(super) fn of(recorded: &Recorded<'_>) -> Result<Arc<PageRun>, Report> {
+        let mut scene = recorded.scene().clone();
+        scene.warnings.sources.forget_folders();
+        let run = PageRun::new(1, Arc::new(scene), Arc::new(NoHost), None);
+        let recording = Arc::clone(recorded.recording());
+        run.show(Arc::clone(&recording));
+        let outcome = {
+            let recorded = Recorded::of_parts(&run.scene, recording, recorded.survey().clone());
+            let mut work = std::pin::pin!(run.conclude(recorded));
+            let mut context = Context::from_waker(Waker::noop());
+            loop {
+                if let Poll::Ready(outcome) = work.as_mut().poll(&mut context) {
+                    break outcome?;
+                }
+            }
+        };
+        // Nothing else sets the outcome of this run.
+        let _ = run.outcome.set(Ok(outcome));
+        Ok(run)
+    }
+
     /// Returns the work of this run, of which nothing is done yet. It is done only once.
     pub fn work(self: &Arc<PageRun>) -> RunWork {
         let run = Arc::clone(self);
@@ -297,18 +326,23 @@ impl PageRun {
     }
 
     async fn simulate(self: Arc<PageRun>) -> Result<Outcome, Report> {
-        let scene: &Scene = &self.scene;
         let recorded = match self.kept() {
             Some(recorded) => recorded,
             None => self.record().await?,
         };
+        self.conclude(recorded).await
+    }
+
+    /// Finds the results that are known after the last frame.
+    async fn conclude(self: &Arc<PageRun>, recorded: Recorded<'_>) -> Result<Outcome, Report> {
+        let scene: &Scene = &self.scene;
         self.remember(&recorded).await?;
         let survey = recorded.survey().clone();
         let plan = |camera| Plan::new(scene, camera, &survey);
         let views = scene.views.iter().map(|view| plan(&view.camera));
         let plans = std::iter::once(plan(&scene.camera)).chain(views).collect();
         let mut warnings = Run::of(recorded).map_err(|error| error.report())?.report();
-        for (name, stride) in swarms::thinned(&self) {
+        for (name, stride) in swarms::thinned(self) {
             let message = format!("this page shows 1 of {stride} particles of `{name}`");
             let help = "a rendered frame shows all: press `Render this`, or use `jabuka still`";
             warnings.diagnostics.push(Diagnostic::warning(Code::NotDrawn, message).help(help));
@@ -390,7 +424,7 @@ pub(super) fn no_room(error: &io::Error) -> Report {
 impl PageRun {
     /// Simulates a whole run.
     pub(super) fn whole(scene: Scene) -> Arc<PageRun> {
-        let run = PageRun::new(1, Arc::new(scene), Arc::new(super::host::NoHost), None);
+        let run = PageRun::new(1, Arc::new(scene), Arc::new(NoHost), None);
         let mut work = run.work();
         while work.advance() {}
         run

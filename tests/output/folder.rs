@@ -224,6 +224,14 @@ fn a_run_that_jams_keeps_the_frames_before() {
     assert!(stderr(&export).contains("; 5 frames before are kept"), "{export:?}");
     assert_eq!(fs::read_to_string(&table).unwrap().lines().count(), 1 + 5 * 3);
 
+    // A page would show the beginning of the run as if it were all of it.
+    let page = folder.path().join("press.html");
+    let export = jabuka().arg("export").arg(&scene).arg("-o").arg(&page).output().unwrap();
+    assert_eq!(export.status.code(), Some(1));
+    let said = stderr(&export);
+    assert!(said.contains("error[jammed]: ") && said.contains("; nothing is written"), "{said}");
+    assert!(!page.exists());
+
     // If no selected frame comes before the failure, nothing is written.
     let none = compile(&["--frames", "7-9", "-o", "none"]);
     assert_eq!(none.status.code(), Some(1));

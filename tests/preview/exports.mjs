@@ -14,7 +14,7 @@ await tests({
     await page.locator("#film-format").selectOption("webm");
     await page.locator("#film-to").fill("2");
     const names = [];
-    for (const kind of ["picture", "film", "model", "table", "scripts"]) {
+    for (const kind of ["picture", "film", "model", "table", "page", "scripts"]) {
       const download = page.waitForEvent("download");
       await page.locator(`#save-${kind}`).click();
       const name = (await download).suggestedFilename();
@@ -22,6 +22,6 @@ await tests({
       names.push(name);
       await page.locator("#save-said", { hasText: `${name} is saved` }).waitFor();
     }
-    assert.deepEqual(names, ["scene_0.png", "scene.webm", "scene.glb", "scene.csv", "scene.zip"]);
+    assert.deepEqual(names, ["scene_0.png", "scene.webm", "scene.glb", "scene.csv", "scene.html", "scene.zip"]);
   },
 });

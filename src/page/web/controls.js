@@ -8,7 +8,7 @@ import { sceneCamera } from "./picture/picture.js";
 import { renderThis } from "./saving/render.js";
 import { foldWarnings, refresh } from "./run/runs.js";
 import { prepareSaving } from "./saving/save.js";
-import { CAN_RENDER } from "./source.js";
+import { CAN_COMPUTE, CAN_RENDER } from "./source.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 10];
 
@@ -80,7 +80,7 @@ const KEYS = [
   [["m"], "M", "move things of the scene in the picture, or not", () => element("move").hidden || toggleHandles()],
   [["r"], "R", "render this frame with POV-Ray", () => renderThis()],
   [["?"], "?", "this list", () => element("keys").showModal()],
-].filter(([, key]) => CAN_RENDER || key !== "R");
+].filter(([, key]) => (CAN_RENDER || key !== "R") && (CAN_COMPUTE || !["T", "M"].includes(key)));
 
 function pressed(event) {
   if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;

@@ -5,7 +5,7 @@ import "./hook.js";
 import { element, open } from "./parts.js";
 import { tick } from "./picture/picture.js";
 import { changed, sayProblem } from "./run/runs.js";
-import { CAN_RENDER, REFUSED, follow } from "./source.js";
+import { CAN_COMPUTE, CAN_RENDER, REFUSED, follow } from "./source.js";
 import { listenToText, takeState } from "./text/scene_text.js";
 
 function begin() {
@@ -16,6 +16,7 @@ function begin() {
     return;
   }
   element("render").hidden = !CAN_RENDER;
+  for (const part of document.querySelectorAll("[data-computed]")) part.hidden = !CAN_COMPUTE;
   nothing.textContent = "…";
   listen();
   listenToText();

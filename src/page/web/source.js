@@ -1,4 +1,4 @@
-// The source of all data of the page: here, the server of `jabuka preview`. The playground has another one with the same exports, a worker.
+// The source of all data of the page: here, the server of `jabuka preview`. The playground and a page in one file have others with the same exports.
 //
 // Every request must contain the token from the address of the page, except those for the page's own files.
 
@@ -12,6 +12,9 @@ export const LOST = "The server does not answer: `jabuka preview` has ended, or 
 
 /** True if the source renders frames with POV-Ray. */
 export const CAN_RENDER = true;
+
+/** True if the source computes what a page asks for: other methods, scripts, models. */
+export const CAN_COMPUTE = true;
 
 function address(path, parameters = {}) {
   return `${path}?${new URLSearchParams({ ...parameters, token })}`;

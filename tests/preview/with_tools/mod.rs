@@ -29,6 +29,7 @@ mod firefox;
 mod large;
 mod marks;
 mod methods;
+mod one_file;
 mod page;
 mod plots;
 mod readme;

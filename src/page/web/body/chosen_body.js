@@ -38,8 +38,8 @@ async function fetchMotion(run, body) {
     Object.assign(motion, { numbers, large: { ...largest, contacts: large(forces) }, contacts: ofContacts });
     redraw();
   } catch (error) {
-    if (known === motion) known = {};
-    if (error.status !== 404) console.warn(error.message);
+    if (known === motion && error.status !== 410) known = {};
+    if (![404, 410].includes(error.status)) console.warn(error.message);
   }
 }
 

@@ -37,7 +37,7 @@ export class Panel {
   /** Shows the values of the body in a frame. */
   async show(frame) {
     const { run, body } = this;
-    if (!run || body === undefined || frame >= (run.progress?.recorded ?? 0)) return;
+    if (!run || body === undefined || frame >= (run.progress?.recorded ?? 0) || this.without === run) return;
     this.frame = frame;
     const number = Math.floor(frame / BLOCK);
     const at = 15 * (frame % BLOCK);
@@ -52,7 +52,10 @@ export class Panel {
         const contacts = await run.contacts(...frames);
         if (run === this.run && body === this.body) this.blocks.set(number, { block, contacts: contactsByFrame(contacts) });
       } catch (error) {
-        if (error.status !== 404) console.warn(error.message);
+        if (error.status === 410) {
+          this.without = run;
+          this.values.createCaption().textContent = error.message;
+        } else if (error.status !== 404) console.warn(error.message);
       }
       this.asking = false;
       if (this.blocks.get(number)?.block.length >= at + 15 || this.frame !== frame) this.show(this.frame);

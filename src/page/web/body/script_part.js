@@ -2,7 +2,7 @@
 
 import { element, open, panel, player } from "../parts.js";
 import { unpacked } from "../run/packed_files.js";
-import { binary } from "../source.js";
+import { CAN_COMPUTE, binary } from "../source.js";
 
 /** The frame, the run and the body whose part of the script is shown or being fetched. */
 let shown = {};
@@ -34,7 +34,7 @@ export async function showScriptPart() {
   const { run, view } = open;
   const { body } = panel;
   const part = element("script-part");
-  part.hidden = body === undefined;
+  part.hidden = !CAN_COMPUTE || body === undefined;
   if (part.hidden || !part.open || player.playing || !run) return;
   const { frame } = player;
   if (shown.run === run && shown.frame === frame && shown.body === body && shown.view === view) return;

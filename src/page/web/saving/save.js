@@ -1,4 +1,4 @@
-// The menu of what a viewer can take along: a picture, a film, a model, a table, the scripts.
+// The menu of what a viewer can take along: a picture, a film, a model, a table, a page, the scripts.
 
 import { download } from "./download.js";
 import { CAN_ENCODE, FORMATS, filmFile, filmRate, usualFormat } from "./film.js";
@@ -6,7 +6,7 @@ import { short } from "../math.js";
 import { element, open, player, redraw } from "../parts.js";
 import { scriptsZip } from "./scripts_zip.js";
 import { pictureFile, shownSize } from "./snapshots.js";
-import { binary } from "../source.js";
+import { CAN_RENDER, binary } from "../source.js";
 
 const PICTURE_SIZES = [[1280, 720], [1920, 1080], [3840, 2160]];
 const FILM_SIZES = [[640, 360], [1280, 720], [1920, 1080]];
@@ -58,6 +58,7 @@ const MAKERS = {
   },
   "save-model": async ({ id, description: { name } }, { signal }) => [`${name}.glb`, new Blob([await binary(`/api/runs/${id}/model`, {}, signal)], { type: "model/gltf-binary" })],
   "save-table": async ({ id, description: { name } }, { signal }) => [`${name}.csv`, new Blob([await binary(`/api/runs/${id}/table`, {}, signal)], { type: "text/csv" })],
+  "save-page": async ({ id, description: { name } }, { signal }) => [`${name}.html`, new Blob([await binary(`/api/runs/${id}/page`, {}, signal)], { type: "text/html" })],
   "save-scripts": async (run, work) => [`${run.description.name}.zip`, await scriptsZip(run, work)],
 };
 
@@ -114,6 +115,8 @@ function showMenu() {
 /** Makes the menu work. */
 export function prepareSaving() {
   element("save").onclick = showMenu;
+  // The playground does not hold the parts of a page in one file.
+  element("save-page").hidden = !CAN_RENDER;
   for (const id of Object.keys(MAKERS)) element(id).onclick = () => make(id);
   element("save-stop").onclick = element("save-dialog").onclose = () => working?.abort();
   const format = element("film-format");

@@ -2,7 +2,7 @@
 
 import { short } from "../math.js";
 import { element, redraw } from "../parts.js";
-import { MOVED, setVariable } from "../source.js";
+import { CAN_COMPUTE, MOVED, setVariable } from "../source.js";
 import { isEdited, setInText } from "./scene_text.js";
 
 /** The number of steps of a slider whose scene gives none: at least this many. */
@@ -94,7 +94,7 @@ export function showSliders({ description: { sliders } }) {
     rows = new Map(sliders.map((slider) => [slider.variable, row(slider)]));
     element("sliders-list").replaceChildren(...[...rows.values()].map(({ label }) => label));
     element("sliders-said").textContent = "";
-    element("sliders").hidden = !sliders.length;
+    element("sliders").hidden = !CAN_COMPUTE || !sliders.length;
     return;
   }
   for (const { variable, value } of sliders) {
