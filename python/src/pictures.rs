@@ -1,10 +1,12 @@
-//! Images and films of runs, by POV-Ray and ffmpeg in the sandbox.
+//! Images, films and pages of runs. POV-Ray and ffmpeg run in the sandbox.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use jabuka::diagnostic::Report;
+use jabuka::diagnostic::{Code, Report};
+use jabuka::export::Format as _;
 use jabuka::output::{self, Folder};
+use jabuka::page::OneFile;
 use jabuka::render::{self, Event, Images, Job, PovRay, Quality, Sequence};
 use jabuka::sandbox::{Confinement, Launcher};
 use jabuka::simulate::{Recorded, Selection};
@@ -130,6 +132,20 @@ pub(crate) fn film(
             made.map_err(|error| error.report())?;
             Ok(said)
         })
+    })
+}
+
+/// Returns a run as a page in HTML.
+pub(crate) fn page(py: Python<'_>, scene: &Scene, outcome: &Outcome) -> PyResult<String> {
+    in_background(py, None, |_| {
+        if let Some(lack) = OneFile.lack(scene) {
+            return Err(Some(Report::of_error(Code::CannotExport, lack)));
+        }
+        let frames = Selection::first(outcome.recording.frames());
+        let mut page = Vec::new();
+        let written = OneFile.write(&outcome.recorded(scene), &frames, &mut page);
+        written.map_err(|error| Some(Report::of_error(Code::CannotExport, error.to_string())))?;
+        Ok(String::from_utf8_lossy(&page).into_owned())
     })
 }
 

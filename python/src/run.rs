@@ -216,6 +216,14 @@ impl Run {
         pictures::still(py, (&self.reading, &self.scene, &self.outcome), time, &look, progress)
     }
 
+    /// Returns the run as a page in HTML.
+    fn page(&self, py: Python<'_>) -> PyResult<String> {
+        if self.is_partial() {
+            return Err(PyValueError::new_err("this run ended early, and a page holds whole runs"));
+        }
+        pictures::page(py, &self.scene, &self.outcome)
+    }
+
     /// Renders a film into a file, and returns the texts of warnings. `rate` is its number of frames per second, and `every` renders every n-th frame of the run.
     #[pyo3(signature = (path, *, size, quality, view, povray, progress, rate, every, folder))]
     #[allow(clippy::too_many_arguments, reason = "Python passes each by its name")]

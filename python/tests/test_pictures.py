@@ -1,5 +1,6 @@
 """Stills and films by POV-Ray and ffmpeg, as notebooks show them."""
 
+import html
 import subprocess
 
 import pytest
@@ -79,3 +80,14 @@ def test_warnings_about_pictures_are_warnings_of_python(tmp_path):
     with pytest.warns(jabuka.JabukaWarning, match="frame_0000.pov") as caught:
         run.film(tmp_path / "film.gif", **options)
     assert caught[0].filename == __file__
+
+
+def test_a_view_is_the_page_of_the_command(command, tmp_path):
+    (tmp_path / "scene.toml").write_text(THROW)
+    command("export", "scene.toml", "-o", "scene.html")
+    view = jabuka.Scene.load(tmp_path / "scene.toml").run().view(height=300)
+    view.save(tmp_path / "saved.html")
+    assert (tmp_path / "saved.html").read_bytes() == (tmp_path / "scene.html").read_bytes()
+    shown = view._repr_html_()
+    assert shown.startswith('<iframe srcdoc="&lt;!doctype html&gt;') and "height: 300px" in shown
+    assert html.unescape(shown.split('"')[1]) == view.page

@@ -24,7 +24,7 @@ from .errors import (
     SceneError,
     Span,
 )
-from .pictures import Film, Still
+from .pictures import Film, Still, View
 from .runs import Body, Run
 from .scenes import Scene
 from .sweeps import Point, Sweep, sweep
@@ -46,6 +46,7 @@ __all__ = [
     "Span",
     "Still",
     "Sweep",
+    "View",
     "sweep",
 ]
 

@@ -60,6 +60,7 @@ class Run:
         povray: _Path | None,
         progress: _Progress,
     ) -> tuple[bytes, list[str]]: ...
+    def page(self) -> str: ...
     def film(
         self,
         path: _Path,

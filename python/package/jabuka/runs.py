@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _jabuka
 from .errors import Diagnostic, diagnostics_of, warn
-from .pictures import Film, Still
+from .pictures import Film, Still, View
 from .progress import Progress, shown
 from .tables import table_of
 
@@ -231,6 +231,17 @@ class Run(_Motion):
             )
         warn(said)
         return Still(time, png)
+
+    def view(self, *, height: int = 480) -> View:
+        """Returns the run as a page, which a notebook shows ``height`` pixels high.
+
+        The page plays the run, turns the camera, plots energies, and shows the values of the body that one clicks. It holds the data of the
+        run, so it also works in a saved notebook, and without a network. If bodies times frames exceed 100,000, it leaves out the values of
+        single bodies.
+
+        Raises ``ValueError`` if the run ended early, and :class:`~jabuka.RenderError` if it is too large for a browser.
+        """
+        return View(self._core.page(), height)
 
     def film(
         self,
