@@ -33,6 +33,15 @@ await tests({
     assert.deepEqual(foreign, []);
   },
 
+  async a_page_says_which_values_it_leaves_out({ browser }) {
+    const page = await openAt(await newPage(browser), pathToFileURL(FILE).href);
+    await page.locator("#body-name").fill("ball[7]");
+    await page.locator("#body-name").press("Enter");
+    await page.locator("#body-values", { hasText: "This file does not hold these values." }).waitFor();
+    await seek(page, 50);
+    assert.deepEqual(page.wrong, []);
+  },
+
   /** Notebooks show the page in a frame that holds its text. */
   async a_run_as_one_file_plays_in_a_frame({ browser }) {
     const page = await newPage(browser);

@@ -35,9 +35,9 @@ text = "${energy} J"
 corner = "top-left"
 "#;
 
-/// Exports the scene as a page, and previews it.
-fn exported() -> Server {
-    let server = Scene::of(SCENE).served();
+/// Exports a scene as a page, and previews it.
+fn exported(scene: &str) -> Server {
+    let server = Scene::of(scene).served();
     let output = server.scene.jabuka(&["export", "scene.toml", "-o", "scene.html"]).output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
     server
@@ -45,12 +45,19 @@ fn exported() -> Server {
 
 #[test]
 fn a_run_as_one_file_shows_what_the_preview_shows() {
-    exported().shows("one_file.mjs", "a_run_as_one_file_shows_what_the_preview_shows");
+    exported(SCENE).shows("one_file.mjs", "a_run_as_one_file_shows_what_the_preview_shows");
 }
 
 #[test]
 fn a_run_as_one_file_plays_in_a_frame() {
-    let server = exported();
+    let server = exported(SCENE);
     server.shows("one_file.mjs", "a_run_as_one_file_plays_in_a_frame");
     server.shows_in_firefox("one_file.mjs", "a_run_as_one_file_plays_in_a_frame");
+}
+
+/// A page holds the values of single bodies up to 100,000 of them. This run has 1,000 bodies in 101 frames.
+#[test]
+fn a_page_says_which_values_it_leaves_out() {
+    let scene = "simulation.duration = 4\n[body.ball]\nshape.sphere.radius = 0.1\nlocation = ['i', 0, 0]\nvelocity = [0, 1, 0]\nrepeat = 1000\n";
+    exported(scene).shows("one_file.mjs", "a_page_says_which_values_it_leaves_out");
 }
