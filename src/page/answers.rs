@@ -132,7 +132,7 @@ pub fn answer_of_run(run: &Arc<PageRun>, what: &str, frames: &Frames) -> Result<
         "model" => Answer::Binary(exports::file(run, &MODEL)?),
         "table" => Answer::Binary(exports::file(run, &TABLE)?),
         #[cfg(feature = "render")]
-        "page" => Answer::Binary(super::one_file::of_run(run)?),
+        "page" => Answer::Binary(exports::written(run, &super::OneFile)?),
         "scripts" => Answer::Binary(scripts::of_frames(run, frames)?),
         _ => return Err(Failed::Gone),
     })

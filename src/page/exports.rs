@@ -7,9 +7,14 @@ use crate::simulate::Selection;
 
 /// Returns the table or the model that the command writes without further options, with all frames of the run.
 pub(super) fn file(run: &PageRun, kind: &FileKind) -> Result<Vec<u8>, Failed> {
-    let recorded = run.finished()?;
     let is_wanted = |format: &&dyn Format| format.option().is_none() && format.file_kind() == kind;
     let format = FORMATS.into_iter().find(is_wanted).ok_or(Failed::Gone)?;
+    written(run, format)
+}
+
+/// Returns the file of a format, with all frames of the run.
+pub(super) fn written(run: &PageRun, format: &dyn Format) -> Result<Vec<u8>, Failed> {
+    let recorded = run.finished()?;
     if let Some(lack) = format.lack(&run.scene) {
         return Err(Report::of_error(Code::CannotExport, lack).into());
     }

@@ -12,8 +12,12 @@ pub(super) const NUMBERS_PER_BALANCE: usize = 13;
 #[cfg(test)]
 pub(super) const NUMBERS_PER_SAMPLE: usize = 15;
 /// The number of values of a contact of one body at one frame.
-#[cfg(test)]
+#[cfg(any(test, feature = "render"))]
 pub(super) const NUMBERS_PER_CONTACT: usize = 11;
+
+/// The count of numbers of a pose: location (3) and orientation (4).
+#[cfg(feature = "render")]
+pub(super) const NUMBERS_PER_POSE: usize = 7;
 
 /// Encodes the poses of all bodies in some frames. Each frame has all locations (x y z), then all orientations (x y z w). The numbers of
 /// an absent body are NaN.

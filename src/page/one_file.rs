@@ -1,7 +1,7 @@
 //! A run as one file: the page with its modules, and all data of the run. A browser shows it without jabuka, and without a network.
 //!
 //! The file answers the page's requests itself (`web/recorded.js`). So it holds the answer to each request that the page can make about a
-//! finished run. Frames are kept one after another, with the size of each, so that the page can ask for any of them.
+//! finished run. The answers for all frames stand one after another, with the size of each, so that the page finds that of any frame.
 
 use std::borrow::Cow;
 use std::io::{self, Write};
@@ -14,11 +14,11 @@ use flate2::write::ZlibEncoder;
 use serde::Serialize;
 use serde_json::json;
 
+use super::numbers::{NUMBERS_PER_CONTACT, NUMBERS_PER_POSE};
 use super::run::PageRun;
 use super::session::State;
 use super::{FILES, Failed, Frames, answer_of_run, describe};
 use crate::Scene;
-use crate::diagnostic::{Code, Report};
 use crate::export::{Contents, ExportError, FileKind, Format, count_of_bodies};
 use crate::simulate::{Recorded, Selection};
 
@@ -29,21 +29,21 @@ pub static WEB_PAGE: FileKind = FileKind { noun: "a web page", extension: "html"
 const MAX_BODY_VALUES: usize = 100_000;
 
 /// What the page may load: only what the file itself contains.
-const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'";
+const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'";
 
 /// The module that answers the page's requests, and the one that it replaces.
-const SOURCE: &str = "recorded.js";
-const REPLACED: &str = "source.js";
+const RECORDED_SOURCE: &str = "recorded.js";
+const PREVIEW_SOURCE: &str = "source.js";
 
 /// The number of frames whose answers are found together.
 const FRAMES_AT_ONCE: usize = 64;
 
 /// The largest size of the poses in a page, bytes. Browsers read no text that is much longer.
-const MAX_POSES: u64 = 300 << 20;
+const MAX_BYTES_OF_POSES: u64 = 300 << 20;
 
-/// The size of a pose, and that of a contact of a body, bytes.
-const POSE: u64 = 56;
-const CONTACT: usize = 88;
+/// The sizes of a pose and of a contact in an answer, bytes.
+const BYTES_PER_POSE: u64 = 8 * NUMBERS_PER_POSE as u64;
+const BYTES_PER_CONTACT: usize = 8 * NUMBERS_PER_CONTACT;
 
 /// The format of a run as one file.
 #[derive(Clone, Copy, Debug)]
@@ -59,8 +59,8 @@ impl Format for OneFile {
     }
 
     fn lack(&self, scene: &Scene) -> Option<Cow<'static, str>> {
-        let poses = POSE * (scene.bodies.len() * scene.simulation.timeline.frames()) as u64;
-        (poses > MAX_POSES).then(|| {
+        let poses = BYTES_PER_POSE * (scene.bodies.len() * scene.simulation.timeline.frames()) as u64;
+        (poses > MAX_BYTES_OF_POSES).then(|| {
             let megabytes = poses / 1_000_000;
             format!("the page would hold {megabytes} MB of motion, and browsers read about 300 MB: take a lower `simulation.frame_rate`").into()
         })
@@ -85,21 +85,6 @@ impl Format for OneFile {
     }
 }
 
-/// Returns the page with the data of a run.
-///
-/// # Errors
-/// If the run is not finished or too large, or an error has ended it early.
-pub(super) fn of_run(run: &PageRun) -> Result<Vec<u8>, Failed> {
-    let recorded = run.finished()?;
-    if let Some(lack) = OneFile.lack(&run.scene) {
-        return Err(Report::of_error(Code::CannotExport, lack).into());
-    }
-    let mut page = Vec::new();
-    // A run of its own has the same number in every session.
-    write_page(&PageRun::of(&recorded)?, &mut page)?;
-    Ok(page)
-}
-
 /// Writes the page with the data of a finished run. Returns true if it holds the values of single bodies.
 fn write_page(run: &Arc<PageRun>, out: &mut dyn Write) -> Result<bool, ExportError> {
     let text = |path: &str| {
@@ -116,7 +101,9 @@ fn write_page(run: &Arc<PageRun>, out: &mut dyn Write) -> Result<bool, ExportErr
     let page = page
         .replace(
             "<title>",
-            &format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<title>"),
+            &format!(
+                "<meta http-equiv=\"Content-Security-Policy\" content=\"{CONTENT_SECURITY_POLICY}\">\n<title>"
+            ),
         )
         .replace("<link rel=\"stylesheet\" href=\"style.css\">", &format!("<style>{style}</style>"))
         .replace("href=\"icon.svg\"", &format!("href=\"{icon}\""))
@@ -132,17 +119,18 @@ fn write_page(run: &Arc<PageRun>, out: &mut dyn Write) -> Result<bool, ExportErr
     Ok(has_values)
 }
 
-/// Returns the import map of the page's modules. Modules in data URLs have no place, so each imports the others by whole names.
+/// Returns the import map of the page's modules. A module in a data URL cannot use relative names, so each
+/// imports the others by whole names.
 fn modules() -> io::Result<serde_json::Value> {
     let mut urls = serde_json::Map::new();
     for (path, _, content) in FILES.iter().filter(|(path, _, _)| path.ends_with(".js")) {
         let name = &path[1..];
-        if name.starts_with("libraries/") || name == REPLACED {
+        if name.starts_with("libraries/") || name == PREVIEW_SOURCE {
             continue;
         }
         let text = std::str::from_utf8(content).map_err(io::Error::other)?;
         let text = with_whole_names(text, name);
-        let name = if name == SOURCE { REPLACED } else { name };
+        let name = if name == RECORDED_SOURCE { PREVIEW_SOURCE } else { name };
         let url = format!("data:text/javascript;base64,{}", BASE64_STANDARD.encode(text));
         urls.insert(format!("jabuka/{name}"), url.into());
     }
@@ -209,12 +197,12 @@ fn equal_parts(bytes: &[u8], frames: Range<usize>) -> Vec<usize> {
 /// Returns the sizes of lists of contacts. Each contact begins with the number of its frame.
 fn by_frame_number(bytes: &[u8], frames: Range<usize>) -> Vec<usize> {
     let mut sizes = vec![0; frames.len()];
-    for contact in bytes.as_chunks::<CONTACT>().0 {
+    for contact in bytes.as_chunks::<BYTES_PER_CONTACT>().0 {
         let [number, ..] = contact.as_chunks::<8>().0 else { continue };
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the number of a frame")]
         let frame = f64::from_le_bytes(*number) as usize;
         if let Some(size) = sizes.get_mut(frame.wrapping_sub(frames.start)) {
-            *size += CONTACT;
+            *size += BYTES_PER_CONTACT;
         }
     }
     sizes
@@ -315,7 +303,28 @@ mod tests {
         assert_eq!(missing, BTreeSet::from(libraries));
     }
 
-    /// A name in the scene cannot end the data, and so cannot become a part of the page.
+    /// Each part that the page usually loads from its server is in the file.
+    #[test]
+    fn the_file_loads_nothing() {
+        let scene = Scene::parse("simulation.duration = 0.1\n[body.a]\nshape.sphere.radius = 1\n").unwrap();
+        let mut page = Vec::new();
+        write_page(&PageRun::whole(scene), &mut page).unwrap();
+        let page = String::from_utf8(page).unwrap();
+        for part in [
+            CONTENT_SECURITY_POLICY,
+            "<style>",
+            "href=\"data:image/svg+xml;base64,",
+            "import \"jabuka/main.js\"",
+            "</html>",
+        ] {
+            assert_eq!(page.matches(part).count(), 1, "{part}");
+        }
+        for loaded in ["rel=\"stylesheet\"", "modulepreload", " src=\"", "@font-face"] {
+            assert!(!page.contains(loaded), "{loaded}");
+        }
+    }
+
+    /// Text of the scene cannot close the element that holds the data.
     #[test]
     fn data_cannot_leave_their_element() {
         let text = in_html(&"</script><script>alert(1)</script>").unwrap();

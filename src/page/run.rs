@@ -192,8 +192,8 @@ impl PageRun {
         })
     }
 
-    /// Makes a run of a recording, with all its results. The number of the run is 1, and its texts name files without their folders: the page is the
-    /// same on all machines.
+    /// Makes a finished run from a recording. Its id is 1, and its texts name files without their folders, so its page is the same on all
+    /// machines.
     ///
     /// # Errors
     /// If the recording cannot be read.
