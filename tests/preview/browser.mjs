@@ -15,21 +15,26 @@ export const LONG = 240_000;
 /** The exit code of a test whose browser no longer answers. */
 const NO_ANSWER = 75;
 
-/** Opens a small page that records its errors and its requests. Messages that match `may` are not errors. */
+/** Opens a small page that records its errors, its requests, and the runs that it found gone. Messages that match `may` are not errors. */
 export async function newPage(browser, { size = { width: 900, height: 640 }, may = [], ...more } = {}) {
   const context = await browser.newContext({ viewport: size, ...more });
   const page = await context.newPage();
   page.setDefaultTimeout(LONG);
   page.wrong = [];
   page.asked = [];
-  const note = (text) => [...HARMLESS, ...may].some((known) => known.test(text)) || page.wrong.push(text);
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && note(message.text()));
+  page.missed = [];
+  const note = (text, url = "") => {
+    const missed = /status of 404/.test(text) && /\/api\/runs\/(\d+)/.exec(url);
+    if (missed) page.missed.push(Number(missed[1]));
+    else if (![...HARMLESS, ...may].some((known) => known.test(text))) page.wrong.push(text);
+  };
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && note(message.text(), message.location().url));
   page.on("pageerror", (error) => note(String(error)));
   page.on("dialog", (dialog) => (note(`a dialog: ${dialog.message()}`), dialog.dismiss()));
   page.on("request", (request) => page.asked.push(request));
   // Firefox does not write failed requests to the console.
   if (IS_FIREFOX) {
-    page.on("response", (response) => response.status() >= 400 && note(`a status of ${response.status()}: ${response.url()}`));
+    page.on("response", (response) => response.status() >= 400 && note(`a status of ${response.status()}: ${response.url()}`, response.url()));
     page.on("requestfailed", (request) => request.failure().errorText === "NS_BINDING_ABORTED" || note(`ERR_FAILED: ${request.url()}`));
   }
   return page;
@@ -68,6 +73,9 @@ export async function tests(all) {
   const own = address.split("\n").flatMap((each) => [`${new URL(each).origin}/`, `blob:${new URL(each).origin}/`]);
   const check = async (page) => {
     assert.deepEqual(page.wrong, [], "what the page has complained of");
+    // A page may ask for a run that has just been replaced, but never for something that the run which it shows lacks.
+    const run = page.missed.length ? await page.evaluate(() => window.jabuka?.run) : undefined;
+    assert.ok(!page.missed.includes(run), `a part of run ${run} is missing`);
     const foreign = page.asked.map((request) => request.url()).filter((url) => !own.some((own) => url.startsWith(own)));
     assert.deepEqual(foreign, [], "what the page has asked others for");
     const referers = await Promise.all(page.asked.map((request) => request.headerValue("referer").catch(() => null)));

@@ -10,9 +10,9 @@ async function end(page, x) {
   await until(page, (jabuka, x) => jabuka.settled && Math.abs(jabuka.pose("ball", 25)?.location[0] - x) < 1e-9, x);
 }
 
-/** Opens the text beside the picture. The page may ask for a run that has just been replaced. */
+/** Opens the text beside the picture. The page may write when another program has changed the file, or when the file cannot be written. */
 async function opened(open) {
-  const page = await open({ may: [/status of 404/, /status of 409/, /status of 500/] });
+  const page = await open({ may: [/status of 409/, /status of 500/] });
   await page.getByRole("button", { name: "Text", exact: true }).click();
   await until(page, (jabuka) => jabuka.editor);
   return page;
@@ -36,6 +36,26 @@ async function file(scene, is) {
     assert.ok(performance.now() - begun < LONG, readFileSync(scene, "utf8"));
     await new Promise((resolve) => setTimeout(resolve, 20));
   }
+}
+
+/** Writes a line into the text while another program writes into the file: the page does not pause, so it neither writes its text nor takes the new one. */
+async function conflict(page, scene, theirs, mine) {
+  await page.evaluate(() => {
+    const { view } = window.jabuka.editor;
+    const from = view.state.doc.toString().indexOf("duration");
+    view.dispatch({ changes: { from, insert: "#\n" } });
+    window.typing = setInterval(() => view.dispatch({ changes: { from: from + 1, insert: "." } }), 50);
+  });
+  writeFileSync(scene, theirs);
+  await page.evaluate((mine) => {
+    clearInterval(window.typing);
+    const { view } = window.jabuka.editor;
+    const [typed] = /^#\.*$/m.exec(view.state.doc.toString());
+    const from = view.state.doc.toString().indexOf(typed);
+    view.dispatch({ changes: { from, to: from + typed.length, insert: mine } });
+  }, mine);
+  await says(page, "Another program has changed the file.");
+  assert.equal(readFileSync(scene, "utf8"), theirs);
 }
 
 const says = (page, what) => page.locator("#said", { hasText: what }).waitFor();
@@ -90,26 +110,7 @@ await tests({
     const before = readFileSync(scene, "utf8");
     const theirs = before.replace("value = 1", "value = 3");
     const page = await opened(open);
-    // The user types on while another program writes: the page does not pause, so it neither writes its text nor takes the new one.
-    const conflict = async (mine) => {
-      await page.evaluate(() => {
-        const { view } = window.jabuka.editor;
-        const from = view.state.doc.toString().indexOf("duration");
-        view.dispatch({ changes: { from, insert: "#\n" } });
-        window.typing = setInterval(() => view.dispatch({ changes: { from: from + 1, insert: "." } }), 50);
-      });
-      writeFileSync(scene, theirs);
-      await page.evaluate((mine) => {
-        clearInterval(window.typing);
-        const { view } = window.jabuka.editor;
-        const [typed] = /^#\.*$/m.exec(view.state.doc.toString());
-        const from = view.state.doc.toString().indexOf(typed);
-        view.dispatch({ changes: { from, to: from + typed.length, insert: mine } });
-      }, mine);
-      await says(page, "Another program has changed the file.");
-      assert.equal(readFileSync(scene, "utf8"), theirs);
-    };
-    await conflict("# first");
+    await conflict(page, scene, theirs, "# first");
     await page.getByRole("button", { name: "Take its text" }).click();
     await until(page, (jabuka) => jabuka.editor.view.state.doc.toString().includes("value = 3"));
     assert.equal(await text(page), theirs.replaceAll("\r\n", "\n"));
@@ -120,8 +121,28 @@ await tests({
     await until(page, (jabuka) => document.getElementById("said").textContent === "");
     await type(page, "# first\n", "");
     await file(scene, (now) => now === before);
-    await conflict("# second");
+    await conflict(page, scene, theirs, "# second");
     await page.getByRole("button", { name: "Keep this text" }).click();
+    await file(scene, (now) => now === before.replace("duration", "# second\r\nduration"));
+  },
+
+  async a_text_is_kept_although_a_write_before_the_choice_comes_late({ open, scene }) {
+    const before = readFileSync(scene, "utf8");
+    const page = await opened(open);
+    await conflict(page, scene, before.replace("value = 1", "value = 3"), "# first");
+    let release;
+    const isHeld = new Promise((held) => {
+      page.route("**/api/save?*", async (route) => {
+        if (!release) await new Promise((resolve) => ((release = resolve), held()));
+        await route.continue();
+      });
+    });
+    await type(page, "# first", "# second");
+    await isHeld;
+    await page.getByRole("button", { name: "Keep this text" }).click();
+    // Long enough for the answer to a question that does not wait.
+    await page.waitForTimeout(200);
+    release();
     await file(scene, (now) => now === before.replace("duration", "# second\r\nduration"));
   },
 

@@ -89,7 +89,7 @@ async function asOpenedAnew(page, open, last) {
 
 await tests({
   async after_ten_scenes_that_are_shown_each_the_page_shows_the_last({ open, scene }) {
-    const page = await open({ may: [/404/] });
+    const page = await open();
     for (const text of SCENES) {
       await page.evaluate(() => window.jabuka.play());
       writeFileSync(scene, timed(text));
@@ -110,7 +110,7 @@ await tests({
   },
 
   async after_ten_scenes_that_are_saved_at_once_the_page_shows_the_last({ open, scene }) {
-    const page = await open({ may: [/404/] });
+    const page = await open();
     for (const pause of [15, 80]) {
       const { run } = await state(page);
       await page.evaluate(() => window.jabuka.play());
@@ -209,7 +209,7 @@ await tests({
   async a_scene_may_change_while_the_page_is_being_opened({ browser, address, scene, open, keep }) {
     const other = await open();
     const { run } = await state(other);
-    const page = keep(await newPage(browser, { may: [/404/] }));
+    const page = keep(await newPage(browser));
     let held;
     // The answers to the page's requests for the old run come too late.
     await page.route(`**/api/runs/${run}/forms?*`, async (route) => {

@@ -10,6 +10,7 @@ in_the_browser! { Scene::of(BALL), "editing.mjs":
     an_error_is_mended_by_a_click_in_the_file,
     a_change_from_outside_is_shown_and_can_be_taken_back,
     a_file_that_changed_meanwhile_is_not_overwritten,
+    a_text_is_kept_although_a_write_before_the_choice_comes_late,
     a_slider_writes_into_the_open_text,
     a_file_that_cannot_be_written_says_so,
     the_text_opens_by_a_key_and_breaks_no_rule,

@@ -103,11 +103,22 @@ async function give() {
   check();
 }
 
+/** Gives the text to the source in place of that of another program. */
+async function keepText() {
+  try {
+    ({ version: scene.version } = await readText());
+  } catch (error) {
+    return say(error.message);
+  }
+  await give();
+}
+
 /** Lets the user choose between the text of the page and that of another program. */
 function offer() {
   const keep = async () => {
-    ({ version: scene.version } = await readText());
-    await write();
+    // A write that is under way is based on the version before the other program's, and fails.
+    await writing;
+    writing = keepText().finally(() => (writing = undefined));
   };
   say("Another program has changed the file. ", choice("Take its text", () => (say(""), load())), " ", choice("Keep this text", keep));
 }
