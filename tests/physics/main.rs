@@ -28,6 +28,7 @@ mod joints;
 mod laws;
 mod order;
 mod origin;
+mod passing;
 mod pulleys;
 mod reactions;
 mod rotation;

@@ -685,7 +685,7 @@ fn a_rope_around_a_drum_holds_what_its_friction_can() {
 #[test]
 fn a_heap_beside_a_mechanism_moves_as_it_does_alone() {
     let heap = "
-        simulation = { duration = 0.5, gravity = [0, -9.81, 0], contacts = 'time-stepping' }
+        simulation = { duration = 0.48, gravity = [0, -9.81, 0], contacts = 'time-stepping' }
         [defaults.body]
         friction = 0.4
         restitution = 0.2

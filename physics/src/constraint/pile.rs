@@ -3,6 +3,7 @@
 //! Joints need a matrix, contacts alone do not. A pile keeps each contact point and each body in one small record. Bodies that touch form an
 //! island; the sweeps over each island end as soon as its impulses have converged. The laws are those of the general solver.
 
+mod closing;
 mod forces;
 mod impacts;
 mod island;
@@ -232,13 +233,16 @@ impl Pile {
         }
     }
 
-    /// Measures all contacts again at a state shortly after that of [`take_contacts`](Self::take_contacts).
+    /// Measures all contacts again at a state shortly after that of [`take_contacts`](Self::take_contacts), but for those whose later moment
+    /// is known.
     pub(crate) fn measure(&mut self, model: &Model, state: &State) {
         self.bodies.iter_mut().for_each(|body| body.follow(model, state));
         for point in &mut self.points {
             let place = &self.contacts[point.contact].place;
-            let meeting = place.meet(place.bodies.map(|body| pose(body, model, state)));
-            point.set(&meeting, place.bodies.map(|body| state.location[body]));
+            if !point.is_foreseen {
+                let meeting = place.meet(place.bodies.map(|body| pose(body, model, state)));
+                point.set(&meeting, place.bodies.map(|body| state.location[body]));
+            }
             point.respond(&self.bodies);
         }
         self.respond_to_rolling();

@@ -28,9 +28,9 @@ pub(super) const CLOSING_LEFT_TO_FORCES: f64 = 0.1;
 pub(crate) struct Struck {
     /// The impacts, in order of time.
     pub(crate) impacts: Vec<Impact>,
-    /// For each rebounding body, its index and the displacement, m, that the impulse caused before the bodies touched. This displacement
-    /// has to be undone.
-    pub(crate) early: Vec<(usize, DVec3)>,
+    /// For each rebounding body, its index, and the displacement (m) and the rotation vector (rad) that the impulse caused before the bodies
+    /// touched. These have to be undone.
+    pub(crate) early: Vec<(usize, [DVec3; 2])>,
     /// The energy that the impulses gave too much because the loads had not yet worked until the bodies touched, J: 0 or negative.
     pub(crate) fallen: f64,
 }
@@ -264,13 +264,14 @@ impl Solver {
         bodies.filter(|&body| model.inverse_mass()[body] != 0.0)
     }
 
-    /// Computes, for each rebounding body, the displacement that impulses caused before the bodies touched, m.
+    /// Computes, for each rebounding body, the displacement that impulses caused before the bodies touched, m. Rotations are left as they are:
+    /// joints would have to be closed again after them.
     fn early(
         &self,
         rebounds: &[Rebound],
         impulses: &[f64],
         (before, after): (&BTreeMap<usize, DVec3>, &State),
-    ) -> Vec<(usize, DVec3)> {
+    ) -> Vec<(usize, [DVec3; 2])> {
         // A body with several rebounds uses the mean time of these, weighted by the impulses.
         let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
         for rebound in rebounds {
@@ -283,7 +284,7 @@ impl Solver {
         let early = |(&body, velocity): (&usize, &DVec3)| {
             let [weighted, all] = sums[&body];
             let time = if all > 0.0 { weighted / all } else { 0.0 };
-            (body, time * (after.velocity[body] - *velocity))
+            (body, [time * (after.velocity[body] - *velocity), DVec3::ZERO])
         };
         before.iter().map(early).collect()
     }

@@ -6,7 +6,10 @@
 //! faster than any point of the body moves, so a rim has a bound of its own, see `rim_bound.rs`. Source: B. V. Mirtich, *Impulse-based dynamic
 //! simulation of rigid body systems* (1996), chapter 2 (conservative advancement).
 
+use glam::DVec3;
+
 use super::closest_points::{ClosestPoints, nearest};
+use super::flush::slide_past;
 use super::path::{Moving, Path};
 use super::solid::{Pose, Solid};
 use super::touch::touches;
@@ -71,11 +74,16 @@ pub(super) fn close(solids: [&Solid; 2]) -> f64 {
 
 /// Computes the rate of the gap at one pair of points of two moving bodies, m/s. It is negative while the bodies approach.
 fn rate(place: &ClosestPoints, moving: &[Moving; 2]) -> f64 {
-    let at = |i: usize| {
+    let [first, second] = velocities(place, moving);
+    place.normal.dot(second - first)
+}
+
+/// Computes the velocities of two moving bodies at one pair of points, m/s.
+fn velocities(place: &ClosestPoints, moving: &[Moving; 2]) -> [DVec3; 2] {
+    [0, 1].map(|i| {
         let arm = place.on[i] - moving[i].pose.location;
         moving[i].velocity + moving[i].turning.cross(arm)
-    };
-    place.normal.dot(at(1) - at(0))
+    })
 }
 
 impl Approach<'_> {
@@ -103,11 +111,13 @@ impl Approach<'_> {
                 for place in near {
                     let rate = rate(&place, &moving);
                     let is_touched = place.gap <= self.touch;
-                    if is_touched && rate < -self.slight {
+                    let slides =
+                        is_touched && slide_past(self.solids, poses, &place, velocities(&place, &moving));
+                    if is_touched && rate < -self.slight && !slides {
                         return Some(time);
                     }
-                    safe = safe.min(self.until(place.gap, -rate, bend));
-                    is_stuck |= is_touched && rate <= self.slight;
+                    safe = safe.min(self.until(place.gap, if slides { 0.0 } else { -rate }, bend));
+                    is_stuck |= is_touched && (rate <= self.slight || slides);
                 }
             }
             // If the bodies touch without approaching, or approach endlessly, the search goes on in small time steps.

@@ -11,6 +11,7 @@ use super::closest_points::{ClosestPoints, nearest};
 use super::crowd::Crowd;
 use super::group::Focus;
 use super::impacts::Hits;
+use super::flush::{Places, at_seams, slide_past};
 use super::lasting_contact::LastingContact;
 use super::laws::LawBook;
 use super::pairs::{Pairs, overlapping};
@@ -264,7 +265,11 @@ impl Collider {
                 closed.iter().any(|other| same(&other))
             };
             // A point that overlaps by a rounding error but separates is ignored.
-            let comes = |touch: &&Touch| rate(&touch.meeting, contact.bodies, (model, state)) < 0.0;
+            let comes = |touch: &&Touch| {
+                let velocities = velocities(&touch.meeting, contact.bodies, (model, state));
+                (velocities[1] - velocities[0]).dot(touch.meeting.normal) < 0.0
+                    && !slide_past([x, y], [&p, &q], &touch.meeting, velocities)
+            };
             for touch in touches(x, &p, y, &q, 0.0).iter().filter(|touch| !is_closed(touch)).filter(comes) {
                 margin = margin.min(touch.meeting.gap / tolerated);
             }
@@ -294,12 +299,38 @@ impl Collider {
             if pair.free > within {
                 continue;
             }
-            let found =
-                touches(x, &poses[0], y, &poses[1], scale.tolerance(RESTING_CONTACT_TOLERANCE)).into_iter();
-            let (touches, snug) = found.partition(|touch| touch.meeting.gap <= within);
+            let mut found =
+                touches(x, &poses[0], y, &poses[1], scale.tolerance(RESTING_CONTACT_TOLERANCE));
+            found.retain(|touch| {
+                let velocities = velocities(&touch.meeting, pair.bodies, (model, state));
+                !slide_past([x, y], [&poses[0], &poses[1]], &touch.meeting, velocities)
+            });
+            let (touches, snug) = found.into_iter().partition(|touch| touch.meeting.gap <= within);
             all.push(Touching { bodies: pair.bodies, law: pair.law, touches, snug });
         }
+        let of_pair = |touching: &Touching| {
+            let bodies = touching.bodies;
+            let points = touching.touches.iter().chain(&touching.snug);
+            points.map(move |touch| (bodies, touch.meeting)).collect::<Vec<_>>()
+        };
+        let places = all.iter().flat_map(of_pair).collect();
+        let mut at_seams = self.at_seams(&places, model, state).into_iter();
+        for touching in &mut all {
+            for touches in [&mut touching.touches, &mut touching.snug] {
+                touches.retain(|_| !at_seams.next().unwrap_or(false));
+            }
+        }
         all
+    }
+
+    /// Returns, for each of all contact points at a state, whether it lies at a seam, and stops nothing.
+    pub(super) fn at_seams(&self, places: &Places, model: &Model, state: &State) -> Vec<bool> {
+        let solids = |number: usize| {
+            let [a, b] = places[number].0;
+            let solids = [self.solids[a].as_ref()?, self.solids[b].as_ref()?];
+            Some((solids, [a, b].map(|body| pose(body, model, state))))
+        };
+        at_seams(places, solids)
     }
 
     /// Prepares the search for contacts at a state, and records which bodies are present. Returns a breakdown if a body that has just
@@ -360,12 +391,21 @@ pub(super) fn is_passive(bodies: [usize; 2], model: &Model) -> bool {
 }
 
 /// Computes the rate of the gap at a pair of points of two bodies, m/s.
-fn rate(meeting: &ClosestPoints, bodies: [usize; 2], (model, state): (&Model, &State)) -> f64 {
-    let at = |i: usize| {
+fn rate(meeting: &ClosestPoints, bodies: [usize; 2], at: (&Model, &State)) -> f64 {
+    let [first, second] = velocities(meeting, bodies, at);
+    meeting.normal.dot(second - first)
+}
+
+/// Computes the velocities of two bodies at their closest points, m/s.
+pub(super) fn velocities(
+    meeting: &ClosestPoints,
+    bodies: [usize; 2],
+    (model, state): (&Model, &State),
+) -> [DVec3; 2] {
+    [0, 1].map(|i| {
         let arm = meeting.on[i] - state.location[bodies[i]];
         state.velocity[bodies[i]] + model.angular_velocity(bodies[i], state).cross(arm)
-    };
-    meeting.normal.dot(at(1) - at(0))
+    })
 }
 
 /// The lengths to which the tolerances of a contact are relative. They follow from the sizes of the bodies; the coordinates only widen a

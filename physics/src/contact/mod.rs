@@ -50,6 +50,7 @@ mod contact_rates;
 mod crowd;
 mod facing;
 mod feature;
+mod flush;
 #[cfg_attr(not(feature = "time-stepping"), path = "no_gjk.rs")]
 mod gjk;
 mod group;

@@ -11,6 +11,9 @@ use super::island::Limits;
 use super::point::Point;
 use super::{Island, Pile};
 
+/// The velocity and the angular velocity of bodies before an impact, by the index of each body.
+type Velocities = BTreeMap<usize, [DVec3; 2]>;
+
 /// A contact at which two bodies rebound in this substep.
 struct Rebound {
     /// The index of the point in the pile.
@@ -38,7 +41,7 @@ impl Pile {
     ) -> Struck {
         self.take_velocities(model, state);
         let limits = self.limits(Purpose::Impact);
-        let (mut rebounds, mut velocities) = (Vec::new(), BTreeMap::new());
+        let (mut rebounds, mut velocities) = (Vec::new(), Velocities::new());
         self.for_each_island(|pile, island| {
             if !pile.holds_all || pile.is_closing(island, part) {
                 let new = pile.strike(island, (model, part, limits), (state, loads), &mut velocities);
@@ -49,9 +52,9 @@ impl Pile {
         if rebounds.is_empty() {
             return Struck::default();
         }
-        let early = self.early(&rebounds, &velocities, state);
+        let early = self.early(&rebounds, &velocities, (model, state));
         let mut impacts: Vec<Impact> =
-            rebounds.iter().map(|rebound| self.impact(rebound, time, &velocities)).collect();
+            rebounds.iter().map(|rebound| self.impact(rebound, time, (&velocities, state))).collect();
         if self.holds_all {
             impacts = of_pairs(impacts);
         }
@@ -76,7 +79,7 @@ impl Pile {
         island: &Island,
         (model, part, limits): (&Model, f64, Limits),
         (state, loads): (&mut State, &Loads),
-        velocities: &mut BTreeMap<usize, DVec3>,
+        velocities: &mut Velocities,
     ) -> Vec<Rebound> {
         let mut rebounds = self.rebounds(island, (model, loads), part);
         for rebound in &rebounds {
@@ -84,7 +87,7 @@ impl Pile {
             self.points[rebound.point].goal.x = -rebound.fall;
             for body in self.contacts[self.points[rebound.point].contact].place.bodies {
                 if model.inverse_mass()[body] != 0.0 {
-                    velocities.insert(body, state.velocity[body]);
+                    velocities.insert(body, [state.velocity[body], model.angular_velocity(body, state)]);
                 }
             }
         }
@@ -180,13 +183,13 @@ impl Pile {
         point.components(at(1) - at(0)).x
     }
 
-    /// Computes, for each rebounding body, the displacement that impulses caused before the bodies touched, m.
+    /// Computes, for each rebounding body, the displacement (m) and the rotation vector (rad) that impulses caused before the bodies touched.
     fn early(
         &self,
         rebounds: &[Rebound],
-        before: &BTreeMap<usize, DVec3>,
-        after: &State,
-    ) -> Vec<(usize, DVec3)> {
+        before: &Velocities,
+        (model, after): (&Model, &State),
+    ) -> Vec<(usize, [DVec3; 2])> {
         // A body with several rebounds uses the mean time of these, weighted by the impulses.
         let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
         for rebound in rebounds {
@@ -196,27 +199,34 @@ impl Pile {
                 *all += rebound.impulse.x;
             }
         }
-        let early = |(&body, velocity): (&usize, &DVec3)| {
+        let early = |(&body, [velocity, angular_velocity]): (&usize, &[DVec3; 2])| {
             let [weighted, all] = sums[&body];
             let time = if all > 0.0 { weighted / all } else { 0.0 };
-            (body, time * (after.velocity[body] - *velocity))
+            let changes = [
+                after.velocity[body] - *velocity,
+                model.angular_velocity(body, after) - *angular_velocity,
+            ];
+            (body, changes.map(|change| time * change))
         };
         before.iter().map(early).collect()
     }
 
-    /// Describes the impact of one rebound in the substep that starts at `time`, s. `velocities` are those of the bodies before the impact.
-    fn impact(&self, rebound: &Rebound, time: f64, velocities: &BTreeMap<usize, DVec3>) -> Impact {
+    /// Describes the impact of one rebound in the substep that starts at `time`, s, in this state. `velocities` are those of the bodies before
+    /// the impact.
+    fn impact(&self, rebound: &Rebound, time: f64, (velocities, state): (&Velocities, &State)) -> Impact {
         let point = &self.points[rebound.point];
         let place = &self.contacts[point.contact].place;
-        let meeting = &place.touch.meeting;
-        let way =
-            |body: &usize| velocities.get(body).map_or(DVec3::ZERO, |velocity| rebound.time * *velocity);
+        let way = |body: usize| velocities.get(&body).map_or(DVec3::ZERO, |[velocity, _]| rebound.time * *velocity);
+        let on = |side: usize| {
+            let body = place.bodies[side];
+            state.location[body] + point.arms()[side] + way(body)
+        };
         let mean = 0.5 * (rebound.before + point.rate(&self.bodies));
         Impact {
             time: time + rebound.time,
             bodies: place.bodies,
-            place: 0.5 * (meeting.on[0] + meeting.on[1] + place.bodies.iter().map(way).sum::<DVec3>()),
-            normal: meeting.normal,
+            place: 0.5 * (on(0) + on(1)),
+            normal: point.axes()[0],
             impulse: point.vector(rebound.impulse),
             energy: (-rebound.impulse.dot(mean) - rebound.impulse.x * rebound.fall).max(0.0),
         }

@@ -18,6 +18,8 @@ pub(super) struct Point {
     /// The vectors from the centers of the bodies to the point, m.
     arms: [DVec3; 2],
     pub(super) gap: f64,
+    /// True if the point has been measured at a later moment of the substep, at which its bodies touch or are nearest.
+    pub(super) is_foreseen: bool,
     /// The rates before the loads of the substep acted, m/s.
     pub(super) rate_before: DVec3,
     /// The changes of the rates under unit impulses, 1/kg: a symmetric 3 × 3 matrix, its upper triangle row by row.
@@ -56,6 +58,7 @@ impl Point {
             tangents: [DVec3::ZERO; 2],
             arms: [DVec3::ZERO; 2],
             gap: 0.0,
+            is_foreseen: false,
             rate_before: DVec3::ZERO,
             response: [0.0; 6],
             grip: 0.0,

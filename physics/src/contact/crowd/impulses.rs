@@ -55,6 +55,7 @@ impl Impulses for Pile {
         state: &mut State,
     ) {
         self.take_contacts(contacts, model, state);
+        self.foresee((part, PUSHING_CONTACT_TOLERANCE), model, state);
         self.aim(part, PUSHING_CONTACT_TOLERANCE);
     }
 

@@ -1,6 +1,6 @@
 //! One substep of Moreau's scheme, for the bodies of the crowd.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::super::super::energy::mechanical;
 use super::super::super::integrator::drift_body;
@@ -154,12 +154,18 @@ impl Crowd {
     }
 }
 
-/// Subtracts from the positions of bodies the displacements, m, that impulses caused before the bodies touched. The change of energy is
-/// booked as work of impacts.
-fn shift(ways: Vec<(usize, DVec3)>, model: &Model, t: f64, state: &mut State) {
+/// Undoes the displacements (m) and the rotations (rotation vectors, rad) of bodies that impulses caused before the bodies touched. The change
+/// of energy is booked as work of impacts.
+fn shift(ways: Vec<(usize, [DVec3; 2])>, model: &Model, t: f64, state: &mut State) {
     if !ways.is_empty() {
         let before = mechanical(model, t, state);
-        ways.into_iter().for_each(|(body, way)| state.location[body] -= way);
+        for (body, [way, turn]) in ways {
+            state.location[body] -= way;
+            if turn != DVec3::ZERO {
+                let back = DQuat::from_scaled_axis(-turn);
+                state.orientation[body] = (back * state.orientation[body]).normalize();
+            }
+        }
         state.accounts.impacts += mechanical(model, t, state) - before;
     }
 }

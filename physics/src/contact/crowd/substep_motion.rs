@@ -13,7 +13,8 @@ use glam::DVec3;
 use super::super::super::{BodyId, Breakdown, Impact, Loads, Model, State};
 use super::super::approach::close;
 use super::super::closest_points::nearest;
-use super::super::collider::{Collider, ContactScale};
+use super::super::flush::slide_past;
+use super::super::collider::{Collider, ContactScale, velocities};
 use super::super::lasting_contact::{LastingContact, spoke};
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
@@ -346,6 +347,14 @@ impl Collider {
             let within = way.clamp(0.1 * close, most);
             all.extend(self.places_within(model, state, pair, [x, y], within));
         }
+        self.without_seams(all, model, state)
+    }
+
+    /// Returns the contacts without those at seams, which stop nothing.
+    fn without_seams(&self, mut all: Vec<LastingContact>, model: &Model, state: &State) -> Vec<LastingContact> {
+        let places = all.iter().map(|place| (place.bodies, place.touch.meeting)).collect();
+        let mut at_seams = self.at_seams(&places, model, state).into_iter();
+        all.retain(|_| !at_seams.next().unwrap_or(false));
         all
     }
 
@@ -367,7 +376,11 @@ impl Collider {
             size: self.size(pair.bodies),
             still: 0.0,
         };
-        touches(x, &p, y, &q, within).into_iter().map(closed).collect()
+        let hits = |touch: &Touch| {
+            let velocities = velocities(&touch.meeting, pair.bodies, (model, state));
+            !slide_past([x, y], [&p, &q], &touch.meeting, velocities)
+        };
+        touches(x, &p, y, &q, within).into_iter().filter(hits).map(closed).collect()
     }
 
     /// Separates bodies of the crowd that overlap too deeply at the end of a step. Returns the contacts of the crowd.
@@ -428,6 +441,7 @@ impl Collider {
             }
             all.extend(places);
         }
+        let all = self.without_seams(all, model, state);
         (all, deep)
     }
 }
