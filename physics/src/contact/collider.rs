@@ -9,9 +9,9 @@ use super::super::{BodyId, Breakdown, Constraint, LawResidual, Model, State};
 use super::approach::{Approach, COORDINATE_ROUNDING, are_convex, close, places};
 use super::closest_points::{ClosestPoints, nearest};
 use super::crowd::Crowd;
+use super::flush::{Places, at_seams, slide_past};
 use super::group::Focus;
 use super::impacts::Hits;
-use super::flush::{Places, at_seams, slide_past};
 use super::lasting_contact::LastingContact;
 use super::laws::LawBook;
 use super::pairs::{Pairs, overlapping};
@@ -299,8 +299,7 @@ impl Collider {
             if pair.free > within {
                 continue;
             }
-            let mut found =
-                touches(x, &poses[0], y, &poses[1], scale.tolerance(RESTING_CONTACT_TOLERANCE));
+            let mut found = touches(x, &poses[0], y, &poses[1], scale.tolerance(RESTING_CONTACT_TOLERANCE));
             found.retain(|touch| {
                 let velocities = velocities(&touch.meeting, pair.bodies, (model, state));
                 !slide_past([x, y], [&poses[0], &poses[1]], &touch.meeting, velocities)

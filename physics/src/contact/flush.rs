@@ -91,7 +91,8 @@ pub(super) fn at_seams<'a>(
                 move |(pair, place)| (place, if pair[side] == body { place.normal } else { -place.normal }),
             )
         };
-        let across = |(_, normal): &(&ClosestPoints, DVec3)| normal.dot(place.normal).abs() < PERPENDICULAR_COSINE;
+        let across =
+            |(_, normal): &(&ClosestPoints, DVec3)| normal.dot(place.normal).abs() < PERPENDICULAR_COSINE;
         if ![0, 1].into_iter().any(|side| others(side).any(|other| across(&other))) {
             return false;
         }

@@ -202,10 +202,8 @@ impl Pile {
         let early = |(&body, [velocity, angular_velocity]): (&usize, &[DVec3; 2])| {
             let [weighted, all] = sums[&body];
             let time = if all > 0.0 { weighted / all } else { 0.0 };
-            let changes = [
-                after.velocity[body] - *velocity,
-                model.angular_velocity(body, after) - *angular_velocity,
-            ];
+            let changes =
+                [after.velocity[body] - *velocity, model.angular_velocity(body, after) - *angular_velocity];
             (body, changes.map(|change| time * change))
         };
         before.iter().map(early).collect()
@@ -216,7 +214,8 @@ impl Pile {
     fn impact(&self, rebound: &Rebound, time: f64, (velocities, state): (&Velocities, &State)) -> Impact {
         let point = &self.points[rebound.point];
         let place = &self.contacts[point.contact].place;
-        let way = |body: usize| velocities.get(&body).map_or(DVec3::ZERO, |[velocity, _]| rebound.time * *velocity);
+        let way =
+            |body: usize| velocities.get(&body).map_or(DVec3::ZERO, |[velocity, _]| rebound.time * *velocity);
         let on = |side: usize| {
             let body = place.bodies[side];
             state.location[body] + point.arms()[side] + way(body)

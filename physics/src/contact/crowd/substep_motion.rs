@@ -13,8 +13,8 @@ use glam::DVec3;
 use super::super::super::{BodyId, Breakdown, Impact, Loads, Model, State};
 use super::super::approach::close;
 use super::super::closest_points::nearest;
-use super::super::flush::slide_past;
 use super::super::collider::{Collider, ContactScale, velocities};
+use super::super::flush::slide_past;
 use super::super::lasting_contact::{LastingContact, spoke};
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
@@ -351,7 +351,12 @@ impl Collider {
     }
 
     /// Returns the contacts without those at seams, which stop nothing.
-    fn without_seams(&self, mut all: Vec<LastingContact>, model: &Model, state: &State) -> Vec<LastingContact> {
+    fn without_seams(
+        &self,
+        mut all: Vec<LastingContact>,
+        model: &Model,
+        state: &State,
+    ) -> Vec<LastingContact> {
         let places = all.iter().map(|place| (place.bodies, place.touch.meeting)).collect();
         let mut at_seams = self.at_seams(&places, model, state).into_iter();
         all.retain(|_| !at_seams.next().unwrap_or(false));
