@@ -116,7 +116,10 @@ impl Approach<'_> {
                     if is_touched && rate < -self.slight && !slides {
                         return Some(time);
                     }
-                    safe = safe.min(self.until(place.gap, if slides { 0.0 } else { -rate }, bend));
+                    // What slides past may soon lie on the other body.
+                    let until =
+                        if slides { MIN_STEP_FRACTION * end } else { self.until(place.gap, -rate, bend) };
+                    safe = safe.min(until);
                     is_stuck |= is_touched && (rate <= self.slight || slides);
                 }
             }

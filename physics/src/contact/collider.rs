@@ -329,7 +329,7 @@ impl Collider {
             let solids = [self.solids[a].as_ref()?, self.solids[b].as_ref()?];
             Some((solids, [a, b].map(|body| pose(body, model, state))))
         };
-        at_seams(places, solids)
+        at_seams(places, |body| model.inverse_mass()[body] != 0.0, solids)
     }
 
     /// Prepares the search for contacts at a state, and records which bodies are present. Returns a breakdown if a body that has just

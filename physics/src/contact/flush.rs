@@ -30,31 +30,35 @@ const SLIDING_SPEED: f64 = 1e-3;
 /// Contact points, each with the indices of its two bodies.
 pub(super) type Places = Vec<([usize; 2], ClosestPoints)>;
 
-/// Returns the unit normals, from the first solid to the second, of the planes along which two solids lie flush at a place. The cosine of the
-/// angle between them and the place's normal is below `cosine`.
-fn flush_planes(solids: [&Solid; 2], poses: [&Pose; 2], place: &ClosestPoints, cosine: f64) -> Vec<DVec3> {
+/// Returns true if two solids lie flush at a place, along a plane whose normal, from the first solid to the second, `is_wanted` accepts. The
+/// cosine of the angle between this normal and the place's normal is below `cosine`. Of compounds, this holds for all parts that meet there.
+fn lie_flush(
+    solids: [&Solid; 2],
+    poses: [&Pose; 2],
+    place: &ClosestPoints,
+    cosine: f64,
+    is_wanted: impl Fn(DVec3) -> bool,
+) -> bool {
     let [a, b] = solids;
     // The triangles of a mesh have no borders that stand out. A ball has no edges, and the ground has none.
     let has_borders = |solid: &&Solid| {
         !solid.is_surface() && !solid.is_ball() && !solid.parts().iter().any(ConvexPart::is_ground)
     };
     if !solids.iter().all(has_borders) {
-        return Vec::new();
+        return false;
     }
     let tolerance = FLUSH_TOLERANCE * a.size().min(b.size());
-    let (mut all, mut is_flush) = (Vec::new(), true);
+    let (mut is_near, mut is_flush) = (false, true);
     for_pairs(a, poses[0], b, poses[1], place.gap + tolerance, &mut |i, j| {
         let pair = Pair { parts: [&a.parts()[i], &b.parts()[j]], poses };
-        if pair.reaches(place, tolerance) {
-            let before = all.len();
-            all.extend(pair.planes().filter_map(|(normal, separation)| {
-                let is_flush = separation.abs() <= tolerance && normal.dot(place.normal).abs() < cosine;
-                is_flush.then_some(normal)
-            }));
-            is_flush &= all.len() > before;
+        if is_flush && pair.reaches(place, tolerance) {
+            is_near = true;
+            is_flush = pair.planes().any(|(normal, separation)| {
+                separation.abs() <= tolerance && normal.dot(place.normal).abs() < cosine && is_wanted(normal)
+            });
         }
     });
-    if is_flush { all } else { Vec::new() }
+    is_near && is_flush
 }
 
 /// Returns true if two solids cannot hit each other at a place, because they lie flush along a plane there, and slide along it. `velocities`
@@ -69,43 +73,47 @@ pub(super) fn slide_past(
     let closing = -velocity.dot(place.normal);
     let is_along = |normal: DVec3| -velocity.dot(normal) <= SLIDING_RATIO * closing;
     closing > SLIDING_SPEED * (velocities[0].length() + velocities[1].length())
-        && flush_planes(solids, poses, place, OTHER_COSINE).into_iter().any(is_along)
+        && lie_flush(solids, poses, place, OTHER_COSINE, is_along)
 }
 
-/// Returns, for each of all contact points, whether it lies at a seam: a body lies flush with a plane there, and another body supports it on
-/// this plane. `solids` returns the two solids of a contact point with their poses.
+/// Returns, for each of all contact points, whether it lies at a seam: a body that forces move lies flush with a plane there, and another body
+/// supports it on this plane. `moves` tells whether forces move a body, and `solids` returns the two solids of a contact point with their poses.
 pub(super) fn at_seams<'a>(
     places: &Places,
+    moves: impl Fn(usize) -> bool,
     solids: impl Fn(usize) -> Option<([&'a Solid; 2], [Pose; 2])>,
 ) -> Vec<bool> {
     let mut of_bodies: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (number, (bodies, _)) in places.iter().enumerate() {
-        bodies.iter().for_each(|body| of_bodies.entry(*body).or_default().push(number));
+        for body in bodies.iter().filter(|body| moves(**body)) {
+            of_bodies.entry(*body).or_default().push(number);
+        }
     }
     let is_at_seam = |number: usize| {
         let (bodies, place) = &places[number];
-        // The other contact points of each body, with their normals as seen from it.
+        // The contact points of each moving body with others: the point on the body, its gap, and the normal as in this pair.
         let others = |side: usize| {
-            let body = bodies[side];
-            of_bodies[&body].iter().map(|other| &places[*other]).filter(|(pair, _)| pair != bodies).map(
-                move |(pair, place)| (place, if pair[side] == body { place.normal } else { -place.normal }),
-            )
+            let all = of_bodies.get(&bodies[side]).into_iter().flatten().map(|other| &places[*other]);
+            all.filter(|(pair, _)| pair != bodies).map(move |(pair, place)| {
+                let own = if pair[0] == bodies[side] { 0 } else { 1 };
+                (place.on[own], place.gap, if own == side { place.normal } else { -place.normal })
+            })
         };
-        let across =
-            |(_, normal): &(&ClosestPoints, DVec3)| normal.dot(place.normal).abs() < PERPENDICULAR_COSINE;
-        if ![0, 1].into_iter().any(|side| others(side).any(|other| across(&other))) {
+        let across = |normal: DVec3| normal.dot(place.normal).abs() < PERPENDICULAR_COSINE;
+        if ![0, 1].into_iter().any(|side| others(side).any(|(_, _, normal)| across(normal))) {
             return false;
         }
         let Some((solids, [p, q])) = solids(number) else { return false };
         let tolerance = FLUSH_TOLERANCE * solids[0].size().min(solids[1].size());
-        flush_planes(solids, [&p, &q], place, PERPENDICULAR_COSINE).into_iter().any(|plane| {
+        let is_supported = |plane: DVec3| {
             [0, 1].into_iter().any(|side| {
-                others(side).any(|(other, normal)| {
-                    let is_level = (other.on[side] - place.on[side]).dot(plane).abs() <= tolerance;
-                    normal.dot(plane) > PARALLEL_COSINE && is_level
+                others(side).any(|(on, gap, normal)| {
+                    let is_level = (on - place.on[side]).dot(plane).abs() <= tolerance;
+                    normal.dot(plane) > PARALLEL_COSINE && is_level && gap <= tolerance
                 })
             })
-        })
+        };
+        lie_flush(solids, [&p, &q], place, PERPENDICULAR_COSINE, is_supported)
     };
     (0..places.len()).map(is_at_seam).collect()
 }

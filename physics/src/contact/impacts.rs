@@ -191,7 +191,15 @@ impl Collider {
                 let (bodies, law) = (pair.bodies, pair.law);
                 let [a, b] = bodies.map(|body| pose(body, model, state));
                 let spoke = spoke(&touch.patches, [&a, &b], &touch.meeting);
-                closed.push(Arc::new(LastingContact { bodies, touch: *touch, law, size, still, spoke }));
+                closed.push(Arc::new(LastingContact {
+                    bodies,
+                    touch: *touch,
+                    law,
+                    size,
+                    still,
+                    may_miss: false,
+                    spoke,
+                }));
             }
         }
         Ok(StruckBodies { closed, struck })

@@ -25,6 +25,8 @@ pub(crate) struct LastingContact {
     pub(crate) size: f64,
     /// The bodies count as at rest at this contact if they separate more slowly than this, m/s.
     pub(crate) still: f64,
+    /// True if the bodies may pass each other: in free flight, they are apart at the end of the substep.
+    pub(crate) may_miss: bool,
     /// For a rim on a plane: the unit direction from the center of the rim to the contact point, world axes. Zero for all others.
     pub(crate) spoke: DVec3,
 }

@@ -34,8 +34,9 @@ struct Moment {
 }
 
 impl Pile {
-    /// Measures each contact whose gap closes within `part` seconds at the moment when it is closed, or when its bodies are nearest. Its gap
-    /// becomes the one that closes at the rate of that moment. Gaps below `closed` times the size of the smaller body are closed already.
+    /// Measures each contact whose gap closes within `part` seconds at the moment when it is closed. Its gap becomes the one that closes at the
+    /// rate of that moment. Contacts of bodies that may miss each other are measured when the bodies are nearest, if they do. Gaps below `closed`
+    /// times the size of the smaller body are closed already.
     pub(crate) fn foresee(&mut self, (part, closed): (f64, f64), model: &Model, state: &State) {
         let Pile { points, contacts, bodies, .. } = self;
         for point in points {
@@ -45,6 +46,9 @@ impl Pile {
                 let of_point = point.bodies.map(|body| &bodies[body as usize]);
                 let poses = place.bodies.map(|body| pose(body, model, state));
                 let moment = Approach { place, bodies: of_point, poses }.nearest(part);
+                if moment.meeting.gap > TOUCHING_GAP * place.size && !place.may_miss {
+                    continue;
+                }
                 let gap = moment.meeting.gap - moment.rate * moment.time;
                 point.set(&ClosestPoints { gap, ..moment.meeting }, moment.locations);
                 point.respond(bodies);
@@ -78,25 +82,25 @@ impl Approach<'_> {
     /// Returns the last moment within `part` seconds at which the gap still closes and is not closed.
     fn nearest(&self, part: f64) -> Moment {
         let touching = TOUCHING_GAP * self.place.size;
-        let (mut early, mut late) = (self.at(0.0), part);
+        let (mut early, mut late) = (self.at(0.0), None);
         for _ in 0..MAX_SEARCH_STEPS {
-            if early.rate >= 0.0 || early.meeting.gap <= touching {
+            if early.rate >= 0.0 || early.meeting.gap <= touching || early.time >= part {
                 break;
             }
-            // Newton's method, kept within the bounds.
-            let next = early.time - early.meeting.gap / early.rate;
-            let time = if next < late || late == part { next.min(part) } else { 0.5 * (early.time + late) };
+            // Newton's method, kept within the bounds. Where points touch, rounding errors would hide the normal, so it aims a little before.
+            let next = (early.time - (early.meeting.gap - 0.5 * touching) / early.rate).min(part);
+            let time = match late {
+                Some(late) if next >= late => 0.5 * (early.time + late),
+                _ => next,
+            };
             if time <= early.time {
                 break;
             }
             let then = self.at(time);
             if then.rate < 0.0 && then.meeting.gap >= 0.0 {
                 early = then;
-                if time == part {
-                    break;
-                }
             } else {
-                late = time;
+                late = Some(time);
             }
         }
         early

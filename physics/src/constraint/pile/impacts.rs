@@ -45,6 +45,7 @@ impl Pile {
         self.for_each_island(|pile, island| {
             if !pile.holds_all || pile.is_closing(island, part) {
                 let new = pile.strike(island, (model, part, limits), (state, loads), &mut velocities);
+                pile.forget_foreseen(island, &new);
                 rebounds.extend(new);
             }
         });
@@ -61,6 +62,18 @@ impl Pile {
         impacts.sort_by(|a, b| a.time.total_cmp(&b.time));
         let fallen = rebounds.iter().map(|rebound| rebound.impulse.x * rebound.fall).sum();
         Struck { impacts, early, fallen }
+    }
+
+    /// Forgets the later moments of points without an impulse, if others have changed the motion that leads there.
+    fn forget_foreseen(&mut self, island: &Island, rebounds: &[Rebound]) {
+        let pushes = |impulses: &[[f64; 3]], point: usize| impulses[point][0] > 0.0;
+        if rebounds.is_empty() && !island.points.clone().any(|point| pushes(&self.impulses, point)) {
+            return;
+        }
+        for number in island.points.clone() {
+            let is_struck = rebounds.iter().any(|rebound| rebound.point == number);
+            self.points[number].is_foreseen &= is_struck || pushes(&self.impulses, number);
+        }
     }
 
     /// Returns true if a contact of an island closes faster than its last force explains. What already pushed keeps its rate by forces:

@@ -8,7 +8,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::super::super::{BodyId, Breakdown, Impact, Loads, Model, State};
 use super::super::approach::close;
@@ -18,7 +18,7 @@ use super::super::flush::slide_past;
 use super::super::lasting_contact::{LastingContact, spoke};
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
-use super::super::solid::Solid;
+use super::super::solid::{Pose, Solid};
 use super::super::touch::{Touch, touches};
 use super::Crowd;
 use super::impulses::Jointed;
@@ -30,6 +30,10 @@ const SUBSTEPS_PER_STEP: [f64; 2] = [2.0, 64.0];
 /// The longest path of a body in a substep, as a fraction of the body's size. The path may be longer if this limit would require more
 /// substeps than the largest number in [`SUBSTEPS_PER_STEP`].
 const MAX_PATH_PER_SUBSTEP: f64 = 0.12;
+
+/// Two bodies that move relative to each other by at most this many times the size of the smaller one in a substep cannot pass through each
+/// other in it.
+const MAX_MISSING_PATH: f64 = 0.5;
 
 /// Points of bodies that push each other stay in contact at the end of the step if their gap is below this fraction of the smaller body's
 /// size.
@@ -345,9 +349,42 @@ impl Collider {
             let close = close([x, y]);
             let most = if is_all { way.max(close) } else { 10.0 * close };
             let within = way.clamp(0.1 * close, most);
-            all.extend(self.places_within(model, state, pair, [x, y], within));
+            let mut places = self.places_within(model, state, pair, [x, y], within);
+            // What moves far in a substep could be in another body in the meantime.
+            if 0.5 * way <= MAX_MISSING_PATH * self.size(pair.bodies) {
+                let comes = |place: &LastingContact| {
+                    let [first, second] = velocities(&place.touch.meeting, pair.bodies, (model, state));
+                    let rate = (second - first).dot(place.touch.meeting.normal);
+                    place.touch.meeting.gap > 0.0 && place.touch.meeting.gap + part * rate < 0.0
+                };
+                let may_miss =
+                    places.iter().any(comes) && self.are_apart_after(part, model, state, pair, [x, y]);
+                places.iter_mut().for_each(|place| place.may_miss = may_miss);
+            }
+            all.extend(places);
         }
         self.without_seams(all, model, state)
+    }
+
+    /// Returns true if two bodies do not overlap after a free flight of `part` seconds.
+    fn are_apart_after(
+        &self,
+        part: f64,
+        model: &Model,
+        state: &State,
+        pair: &Pair,
+        [x, y]: [&Solid; 2],
+    ) -> bool {
+        let [p, q] = pair.bodies.map(|body| {
+            let Pose { location, orientation } = pose(body, model, state);
+            let turn = DQuat::from_scaled_axis(part * model.angular_velocity(body, state));
+            Pose {
+                location: location + part * state.velocity[body],
+                orientation: (turn * orientation).normalize(),
+            }
+        });
+        let closed = PUSHING_CONTACT_TOLERANCE * self.size(pair.bodies);
+        nearest(x, &p, y, &q, f64::INFINITY).is_some_and(|near| near.gap >= -closed)
     }
 
     /// Returns the contacts without those at seams, which stop nothing.
@@ -380,6 +417,7 @@ impl Collider {
             law: pair.law,
             size: self.size(pair.bodies),
             still: 0.0,
+            may_miss: false,
         };
         let hits = |touch: &Touch| {
             let velocities = velocities(&touch.meeting, pair.bodies, (model, state));
