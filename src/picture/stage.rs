@@ -74,14 +74,13 @@ impl Scenery {
         let (framed, whole) = (framed_run.span.bounds, framed_run.whole);
         let around = scene.environment.ground.as_ref();
         let framed_size = size(framed);
-        let ground =
-            around.and_then(|ground| ground.height).unwrap_or_else(|| just_under(whole.min.y, framed_size));
+        // A camera close to a long motion sees only a part of it, so the tiles must fit the picture, and bodies that rest must not hover.
+        let fit = framed_size.min(two_digits_up(view));
+        let ground = around.and_then(|ground| ground.height).unwrap_or_else(|| just_under(whole.min.y, fit));
         let deep = || two_digits_up((framed.max.y - ground).max(framed_size));
         // A camera that goes along with the motion may be high above the ground.
         let along = framed_run.track.as_ref().map(|track| two_digits_up((track.height() - ground).max(view)));
         let depth = along.unwrap_or_else(|| if framed_run.part == FramedPart::Whole { 0.0 } else { deep() });
-        // A camera close to a long motion sees only a part of it, so the tiles must fit the picture.
-        let fit = framed_size.min(two_digits_up(view));
         let usual_tile = tile(fit.max(depth));
         let given_tile = around.and_then(|ground| ground.tile).or(ruled_tile(scene, usual_tile));
         let size = match along {

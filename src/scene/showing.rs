@@ -54,8 +54,8 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// The number of arrow scales. Weight, normal force, friction and named forces share one scale.
-    pub const SCALE_COUNT: usize = 5;
+    /// The number of arrow scales, one for each unit: all forces share one scale.
+    pub const SCALE_COUNT: usize = 4;
     /// The number of arrow colors, one for each quantity.
     pub const COLOR_COUNT: usize = 8;
 
@@ -68,10 +68,18 @@ impl Quantity {
     /// The quantities for the arrows of a joint.
     pub const OF_JOINTS: [Quantity; 2] = [Quantity::Force, Quantity::Torque];
 
-    /// Returns the index of the quantity's arrow scale. Weight, normal force, friction and named forces share a scale, so that their arrows
-    /// can be compared.
+    /// Returns the index of the quantity's arrow scale. All forces share a scale, so that their arrows can be compared.
     pub fn number(self) -> usize {
-        self.color().min(Self::SCALE_COUNT - 1)
+        match self {
+            Quantity::Velocity => 0,
+            Quantity::Acceleration => 1,
+            Quantity::Force
+            | Quantity::Weight
+            | Quantity::Normal
+            | Quantity::Friction
+            | Quantity::NamedForce => 2,
+            Quantity::Torque => 3,
+        }
     }
 
     /// Returns the index of the quantity's arrow color, in the order of the enum.

@@ -251,15 +251,13 @@ impl Span {
     /// scale.
     fn see_showing(&mut self, here: Bounds, body: &Body, frame: &BodySnapshot) -> Bounds {
         let mut seen = here;
-        for ((quantity, arrow), reach) in
-            Quantity::OF_BODIES.into_iter().zip(body.showing.arrows).zip(&mut self.arrows)
-        {
+        for (quantity, arrow) in Quantity::OF_BODIES.into_iter().zip(body.showing.arrows) {
             let Some(arrow) = arrow else { continue };
             let vector = shown(quantity, body, frame);
             let root = root(body, frame, vector);
             match arrow.scale {
                 Some(scale) => seen = seen.union_if_finite(root + vector * scale),
-                None => reach.add(root, vector),
+                None => self.arrows[quantity.number()].add(root, vector),
             }
         }
         if let Some(trail) = body.showing.trail.filter(|trail| trail.at != DVec3::ZERO) {

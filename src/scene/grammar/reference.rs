@@ -109,7 +109,7 @@ joints are described in the same way for both schemes. Choose by scene:
 | rolling friction | yes | refused |
 
 - **Few bodies**: if forces move at most sixty bodies, and none that collides is a torus, Moreau's scheme computes their contacts.
-  Joints are exact then, bodies do not sink into each other, rebounds keep their height, and gears, pulleys, rolling friction, exact motors and the forces of joints are there. What a step can change sets the accuracy.
+  Joints are exact then, bodies do not sink into each other, and bodies without joints meet where and when they touch within a step. Rebounds keep their height, and gears, pulleys, rolling friction, exact motors and the forces of joints are there. What a step can change sets the accuracy.
   Two bodies that touch no others rebound by the ratio of speeds that `restitution` gives. Where more bodies touch, each contact gives back
   this part of its impulse, which is another speed where there is friction or a joint.
 - **Energy**: the work of contacts, joints and motors is booked, and is not part of the drift. So the drift says nothing about joints that give

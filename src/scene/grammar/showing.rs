@@ -108,8 +108,7 @@ table! {
     SCALE: Option<f64> = KeySpec::new("scale", POSITIVE, "Its length per m/s, m/s², N or N·m")
         .unit("m")
         .default(
-            "the same for all arrows of its kind, chosen to make the longest easy to see; weight, \
-             normal force and friction are of one kind",
+            "the same for all arrows of its kind, chosen to make the longest easy to see; all forces are of one kind",
         )
         .also(&["length", "factor", "size"]),
     COLOR: Option<value::Color> = super::COLOR.default("that of its kind"),
